@@ -1,0 +1,42 @@
+/* OpenCL only: gravity, drag, kick, drift and the safety net of one particle. Of each vector, w means nothing. */
+#ifndef SQUALL_INTEGRATE_H
+#define SQUALL_INTEGRATE_H
+
+#include "boundary.h"
+#include "sph_formulas.h"
+#include "switches.h"
+
+/* Drag of a drop alone by the midpoint rule: at the speed half a kick from now. */
+static inline float4 with_drag(__constant Params* p, __global const Substep* now, float4 a, float4 v, float weight) {
+  float half_kick = now->kick * p->one_half;
+  float4 wind = (float4)(now->wind_x, now->wind_y, now->wind_z, 0.0f);
+  float4 before = v - wind;
+  float rate = drag_rate(before.x, before.y, before.z, p->drag_coefficient, weight);
+  float4 later = fma((float4)(half_kick), fma((float4)(rate), before, a), before);
+  rate = drag_rate(later.x, later.y, later.z, p->drag_coefficient, weight);
+  return fma((float4)(rate), later, a);
+}
+
+/* Moves the particle on; returns SQUALL_CLAMPED, SQUALL_LOST or 0. */
+static inline int integrate(__constant Params* p, __constant Box* boxes, __global const Substep* now, float4 a,
+                            float4* position, float4* velocity) {
+  float4 v = fma((float4)(now->kick), a, *velocity);
+  float4 x = fma((float4)(now->dt), v, *position);
+  float from[3] = {position->x, position->y, position->z};
+  float to[3] = {x.x, x.y, x.z};
+  *position = x;
+  *velocity = v;
+#if SQUALL_BOXES
+  int box_count = now->box_count;
+#else
+  int box_count = 0;
+#endif
+  if (box_count == 0 && is_inside_container(p, to)) return 0;
+  float speed[3] = {v.x, v.y, v.z};
+  int event = keep_inside(p, boxes, box_count, from, to, speed);
+  *position = (float4)(to[0], to[1], to[2], 0.0f);
+  *velocity = (float4)(speed[0], speed[1], speed[2], 0.0f);
+  return event;
+}
+
+#endif

@@ -1,0 +1,38 @@
+/* Reads:  records, ids. Writes: each particle's cell, the chunk's histogram over cells, the chunk's maxima so far.
+   The records' spare fields hold |v|^2 and |a|^2 of the sub-step before (forces.cl): met here, they cost nothing.
+   One work-item = one chunk of particles. */
+#include "chunks.h"
+#include "grid.h"
+
+static inline int sort_key(__constant Params* p, __constant HeldGroup* groups, int held_count, float4 position,
+                           uint id) {
+  if (is_lost(position.x)) return lost_cell(p);
+  for (int g = 0; g < held_count; ++g)
+    if (id >= groups[g].first_id && id < groups[g].end_id) return held_cell(p);
+  return cell_of(p, position.x, position.y, position.z);
+}
+
+__kernel void sort_histogram(__global const float4* records, __global const uint* ids, __global int* keys,
+                             __global int* histograms, __global float2* maxima, __global int* clamps,
+                             __constant Params* p, __constant HeldGroup* groups, __global const Substep* substeps,
+                             int step, int count) {
+  int chunk = (int)get_global_id(0);
+  int chunks = (int)get_global_size(0);
+  int key_count = p->cell_count + 2;
+  __global int* histogram = histograms + (size_t)chunk * key_count;
+  for (int key = 0; key < key_count; ++key) histogram[key] = 0;
+
+  int held_count = substeps[step].held_count;
+  float2 largest = (float2)(0.0f, 0.0f);
+  int end = chunk_begin(count, chunk + 1, chunks);
+  for (int i = chunk_begin(count, chunk, chunks); i < end; ++i) {
+    float4 position = records[2 * (size_t)i];
+    largest = fmax(largest, (float2)(position.w, records[2 * (size_t)i + 1].w));
+    int key = sort_key(p, groups, held_count, position, ids[i]);
+    keys[i] = key;
+    ++histogram[key];
+  }
+  /* Before the first sub-step the spare fields belong to the frame before. */
+  maxima[chunk] = step > 0 ? fmax(maxima[chunk], largest) : (float2)(0.0f, 0.0f);
+  if (step == 0 && chunk == 0) *clamps = 0;
+}

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# check_oclgrind.sh SQUALL SCENE: two frames of the scene on the opencl backend under Oclgrind, a simulator of a device
+# that reports out-of-bounds accesses, data races and uninitialised values. It exits 0 whatever it finds, so an empty log
+# is what counts. Its compiler needs -O1.
+set -euo pipefail
+squall=$1
+scene=$2
+command -v oclgrind >/dev/null || {
+  echo "error: oclgrind is missing (Debian: apt-get install oclgrind)" >&2
+  exit 1
+}
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+
+oclgrind --log "$out/log" --build-options -O1 --data-races --uninitialized --max-errors 20 \
+  "$squall" run "$scene" --backend opencl --frames 2 --quiet --json "$out/run.json"
+python3 - "$out/run.json" <<'PYTHON'
+import json, sys
+run = json.load(open(sys.argv[1]))["runs"][0]
+assert run["backend"] == "opencl" and "oclgrind" in run["device"].lower(), f"ran on {run['backend']}, {run['device']}"
+assert run["frames"] == 2 and run["particles"] > 0, run
+PYTHON
+if [ -s "$out/log" ]; then
+  echo "error: oclgrind found:" >&2
+  head -c 20000 "$out/log" >&2
+  exit 1
+fi
+echo "oclgrind found nothing"

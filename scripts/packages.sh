@@ -1,0 +1,65 @@
+# shellcheck shell=bash disable=SC2034
+# What squall needs of Debian 12, in one place; sourced by run.sh and test.sh.
+
+# To build and run the command; PoCL is the OpenCL device of machines that have no other.
+run_packages=(
+  g++ cmake ninja-build pkg-config git ca-certificates
+  libeigen3-dev libtomlplusplus-dev libhwy-dev
+  opencl-clhpp-headers opencl-c-headers ocl-icd-opencl-dev pocl-opencl-icd
+  nlohmann-json3-dev libcli11-dev libfmt-dev gnuplot-nox
+)
+# To test it: clang-15 checks the kernels' syntax for devices that are not here, Oclgrind watches them run.
+test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev clang-15 oclgrind python3)
+
+say() { printf '== %s\n' "$*" >&2; }
+fail() {
+  printf 'error: %s\n' "$*" >&2
+  exit 1
+}
+
+is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+
+# Installs what is missing of the packages named; asks the network only then.
+install_packages() {
+  local package
+  local missing=()
+  type -P apt-get dpkg-query >/dev/null || fail "this script installs packages with apt-get (Debian 12), which is not here. Install the likes of: $*;" \
+    "then: cmake --preset release && cmake --build build/release"
+  for package in "$@"; do
+    is_installed "$package" || missing+=("$package")
+  done
+  [ "${#missing[@]}" -gt 0 ] || { say "all $# packages are installed" && return; }
+
+  local as_root=()
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || fail "not root and no sudo; as root: apt-get install ${missing[*]}"
+    as_root=(sudo)
+  fi
+  as_root+=(env DEBIAN_FRONTEND=noninteractive)
+  say "installing ${missing[*]}"
+  # One unreachable extra source must not stop what the others can give; the installation decides.
+  "${as_root[@]}" apt-get update -qq || say "apt-get update failed; trying with the package lists that are here"
+  "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2 ||
+    fail "apt-get could not install: ${missing[*]} (no network, or not Debian 12?)"
+}
+
+# As many compile jobs as there are cores and memory for, at 1.5 GiB each; at least one.
+build_jobs() {
+  local cores memory_kib jobs
+  cores=$(nproc)
+  memory_kib=$(awk '/^MemAvailable:/ { print $2 }' /proc/meminfo)
+  jobs=$((${memory_kib:-1572864} / 1572864))
+  [ "$jobs" -lt "$cores" ] || jobs=$cores
+  [ "$jobs" -ge 1 ] || jobs=1
+  echo "$jobs"
+}
+
+# Configures the release preset with the options given and builds it.
+build_release() {
+  local jobs
+  jobs=$(build_jobs)
+  say "configuring build/release"
+  cmake --preset release "$@" >&2
+  say "building with $jobs jobs"
+  cmake --build build/release -j "$jobs" >&2
+}

@@ -1,0 +1,66 @@
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/interrupt.h"
+#include "app/notes.h"
+#include "app/output_folder.h"
+#include "app/plans.h"
+#include "app/progress.h"
+#include "app/result_output.h"
+#include "app/row_text.h"
+#include "harness/run.h"
+
+namespace squall::app {
+
+namespace {
+
+std::string run_result_text(const Options& options, const Workload& workload, const harness::Row& row) {
+  std::string text = headline(workload) + "\n" + run_text(row);
+  if (options.budget_ms)
+    text += keeps_budget(row, *options.budget_ms) ? "budget kept at the 95th percentile\n"
+                                                  : "budget exceeded at the 95th percentile\n";
+  return text;
+}
+
+}  // namespace
+
+int command_run(const Options& options) {
+  const Workload workload = load_workload(options);
+  if (options.print_scene) {
+    std::cout << print_workload(workload);
+    return k_exit_fine;
+  }
+  const auto backends = list_backends();
+  const harness::RunPlan plan = plan_run(options, workload, backends);
+  print_notes(scene_notes(workload.scene), options.quiet);
+
+  const Interrupt interrupt;
+  std::optional<OutputFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out, workload);
+  const harness::SolverFactory make = [&](const harness::RunPlan& what) {
+    return make_solver(what.backend, workload.scene, what.settings);
+  };
+  harness::Row row;
+  {
+    Progress progress(options.quiet, workload.info.name);
+    std::map<std::string, double> phases;
+    row = harness::run_once(make(plan), plan, [&](const harness::Run& run) {
+      if (folder) folder->after_frame(run, options.save_every);
+      progress.update(run.steps_done(), run.steps_planned());
+      if (run.done() && run.error().empty()) phases = harness::profile_phases(make, plan, run.state());
+      return !interrupt.requested();
+    });
+    row.phase_ms = std::move(phases);
+  }
+  if (folder) folder->finish();
+  write_result(options, workload, backends, {row}, std::nullopt);
+  if (!options.json_alone()) std::cout << run_result_text(options, workload, row);
+  return interrupt.requested() ? k_exit_interrupted : exit_code_of(options, {row}, std::nullopt);
+}
+
+}  // namespace squall::app

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "app/options.h"
+
+namespace squall::app {
+
+/// Each carries one command out and returns the exit code. Throws InputError, DeviceError and UsageError.
+int command_devices(const Options& options);
+int command_run(const Options& options);
+int command_compare(const Options& options);
+
+}  // namespace squall::app

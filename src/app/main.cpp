@@ -1,0 +1,47 @@
+#include <exception>
+#include <iostream>
+
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/option_parser.h"
+#include "core/errors.h"
+
+namespace {
+
+using namespace squall::app;
+
+int run_command(int argc, char** argv) {
+  const auto options = parse_options(argc, argv);
+  if (!options) return k_exit_fine;
+  switch (options->command) {
+    case Command::devices:
+      return command_devices(*options);
+    case Command::run:
+      return command_run(*options);
+    case Command::compare:
+      return command_compare(*options);
+  }
+  return k_exit_internal;
+}
+
+int complain(const char* text, int code) {
+  std::cerr << "squall: " << text << "\n";
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_command(argc, argv);
+  } catch (const UsageError& error) {
+    return complain((std::string(error.what()) + "\nsee squall --help, or squall COMMAND --help").c_str(),
+                    k_exit_usage);
+  } catch (const squall::InputError& error) {
+    return complain(error.what(), k_exit_input);
+  } catch (const squall::DeviceError& error) {
+    return complain(error.what(), k_exit_device);
+  } catch (const std::exception& error) {
+    return complain((std::string("internal error: ") + error.what()).c_str(), k_exit_internal);
+  }
+}

@@ -1,0 +1,213 @@
+#include "app/option_parser.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "app/exit_codes.h"
+#include "build_info.h"
+
+namespace squall::app {
+
+namespace {
+
+/// The command line as texts, before values are understood.
+struct Raw {
+  std::vector<std::string> backends, readbacks;
+  std::string simd, precision, pressure, format = "squall";
+};
+
+constexpr const char* k_later_commands[] = {"sweep", "agree", "study", "stress", "cost", "validate", "view"};
+constexpr const char* k_later_options[] = {"--fast-math",        "--tune",    "--trace",     "--checkpoint",
+                                           "--checkpoint-every", "--restart", "--tolerance", "--max-error"};
+
+/// --dt-max becomes SQUALL_DT_MAX.
+std::string variable_of(std::string option) {
+  option.erase(0, 2);
+  std::transform(option.begin(), option.end(), option.begin(),
+                 [](unsigned char c) { return c == '-' ? '_' : static_cast<char>(std::toupper(c)); });
+  return "SQUALL_" + option;
+}
+
+/// Every option has its variable.
+template <class Value>
+CLI::Option* add(CLI::App& command, const std::string& name, Value& value, const std::string& help) {
+  return command.add_option(name, value, help)->envname(variable_of(name));
+}
+
+void add_later_options(CLI::App& command) {
+  for (const char* name : k_later_options) {
+    // An empty group hides the option from --help.
+    command.add_option(name)->expected(0, 1)->group("")->envname(variable_of(name));
+  }
+}
+
+void refuse_later_options(const CLI::App& command) {
+  for (const char* name : k_later_options)
+    if (command.get_option(name)->count() > 0) throw UsageError(fmt::format("{} is not in this version", name));
+}
+
+void add_output_options(CLI::App& command, Options& options) {
+  add(command, "--json", options.json,
+      "Write the result as JSON to FILE, or with - to stdout, which then holds nothing else")
+      ->type_name("FILE");
+  command.add_flag("--quiet", options.quiet, "No progress bar and no notes on stderr")->envname("SQUALL_QUIET");
+}
+
+void add_water_options(CLI::App& command, Options& options, Raw& raw) {
+  command.add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  add(command, "--pressure", raw.pressure, "mueller or wcsph; else what the scene says, else wcsph")->type_name("NAME");
+  add(command, "--particles", options.particles, "Change the spacing so that about N particles result")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 31))
+      ->type_name("N");
+  add(command, "--dt-max", options.dt_max_s, "Longest sub-step [s]; else the scene's")->type_name("S");
+  add(command, "--seed", options.seed, "Of the rain (1)")->type_name("N");
+}
+
+void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
+  add(command, "--simd", raw.simd, "omp: scalar, avx2 or avx512; else the widest there is")->type_name("NAME");
+  add(command, "--precision", raw.precision, "reference: single or double (its default); the others are single")
+      ->type_name("NAME");
+  add(command, "--frames", options.frames, "Frames to measure")->check(CLI::Range(1, 10'000'000))->type_name("N");
+  add(command, "--seconds", options.seconds, "The same as simulated time [s]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  add(command, "--budget-ms", options.budget_ms, "Exit 7 if the 95th percentile of frame time exceeds this")
+      ->check(CLI::PositiveNumber)
+      ->type_name("F");
+  add(command, "--out", options.out, "Folder for scene.toml, frames.csv and more")->type_name("DIR");
+  add(command, "--format", raw.format, "Shape of the JSON: squall or google-benchmark (for its compare.py)")
+      ->type_name("NAME");
+}
+
+CLI::App* add_run(CLI::App& app, Options& options, Raw& raw) {
+  CLI::App* run = app.add_subcommand("run", "Run a scene on one backend; frames to disk if asked");
+  add_water_options(*run, options, raw);
+  add(*run, "--backend", raw.backends, "reference, omp or opencl (omp; opencl with --device)")
+      ->expected(1)
+      ->type_name("NAME");
+  add(*run, "--device", options.device, "OpenCL device: index or part of its name in `squall devices`")
+      ->type_name("DEVICE");
+  add(*run, "--threads", options.threads, "Threads, or compute units of a CPU device; else all")
+      ->expected(1)
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  add(*run, "--readback", raw.readbacks, "none, blocking, pinned or mapped (mapped)")->expected(1)->type_name("MODE");
+  add_measuring_options(*run, options, raw);
+  add(*run, "--save-every", options.save_every, "With --out: write the particles after every N-th frame")
+      ->check(CLI::Range(1, 10'000'000))
+      ->type_name("N");
+  run->add_flag("--print-scene", options.print_scene, "Print the scene as it would run, as a scene file, and stop");
+  add_output_options(*run, options);
+  add_later_options(*run);
+  return run;
+}
+
+CLI::App* add_compare(CLI::App& app, Options& options, Raw& raw) {
+  CLI::App* compare = app.add_subcommand("compare", "Every backend and device side by side, and whether they agree");
+  add_water_options(*compare, options, raw);
+  const auto list = [](CLI::Option* option, const char* name) {
+    return option->delimiter(',')->allow_extra_args(false)->take_all()->type_name(name);
+  };
+  list(add(*compare, "--backend", raw.backends, "Only these; may be repeated (omp, opencl)"), "NAME[,NAME]");
+  add(*compare, "--device", options.device, "Only OpenCL devices with this index or part of the name")
+      ->type_name("DEVICE");
+  list(add(*compare, "--threads", options.threads, "Thread counts (omp: 1 and all)"), "N[,N]")
+      ->check(CLI::Range(1, 1024));
+  list(add(*compare, "--readback", raw.readbacks, "Only these read-back modes (all)"), "MODE[,MODE]");
+  add_measuring_options(*compare, options, raw);
+  add_output_options(*compare, options);
+  add_later_options(*compare);
+  return compare;
+}
+
+bool on_command_line(int argc, char** argv, const std::string& name) {
+  return std::any_of(argv, argv + argc,
+                     [&](const std::string& text) { return text == name || text.rfind(name + "=", 0) == 0; });
+}
+
+/// --frames and --seconds say the same thing: a flag beats the other's variable, two of a kind contradict each other.
+void settle_length(int argc, char** argv, Options& options) {
+  if (!options.frames || !options.seconds) return;
+  const bool frames = on_command_line(argc, argv, "--frames"), seconds = on_command_line(argc, argv, "--seconds");
+  if (frames == seconds) throw UsageError("--frames and --seconds both set the length of the run; give one of them");
+  if (frames)
+    options.seconds.reset();
+  else
+    options.frames.reset();
+}
+
+void understand(const Raw& raw, Options& options) {
+  for (const auto& text : raw.backends) options.backends.push_back(parse_backend(text));
+  for (const auto& text : raw.readbacks) options.readbacks.push_back(parse_readback(text));
+  if (!raw.simd.empty()) options.simd = parse_simd(raw.simd);
+  if (!raw.precision.empty()) options.precision = parse_precision(raw.precision);
+  if (!raw.pressure.empty()) options.pressure = parse_pressure(raw.pressure);
+  if (raw.format == "google-benchmark")
+    options.format = Format::google_benchmark;
+  else if (raw.format != "squall")
+    throw UsageError(fmt::format("--format '{}' is unknown; there are squall, google-benchmark", raw.format));
+  if (options.format != Format::squall && options.json.empty()) options.json = "-";
+  if (options.save_every > 0 && options.out.empty())
+    throw UsageError("--save-every needs a folder to write to; add --out DIR");
+}
+
+/// The parser would only say that a command is required.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2) throw UsageError("a command is missing; there are devices, run, compare");
+  const std::string name = argv[1];
+  const auto commands = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
+  if (name.rfind('-', 0) != 0 && commands.empty())
+    throw UsageError(fmt::format("the command '{}' is unknown; there are devices, run, compare", name));
+}
+
+/// The parser would read variables for the commands that are not carried out, too, into the same options.
+void ignore_variables_of_others(CLI::App& app, const std::string& name) {
+  for (CLI::App* command : app.get_subcommands([&](const CLI::App* command) { return command->get_name() != name; }))
+    for (CLI::Option* option : command->get_options()) option->envname("");
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, char** argv) {
+  CLI::App app("squall: does this water fit your milliseconds, on the CPU or on OpenCL, and is it the same water?",
+               "squall");
+  app.set_version_flag("--version", fmt::format("squall {} ({})", k_squall_version, k_git_revision));
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 fine, 1 internal error, 2 usage, 3 scene or input file, 4 device, 5 results disagree,\n"
+      "6 unstable or not finite, 7 budget exceeded, 130 interrupted.\n"
+      "Every option --some-name has a variable SQUALL_SOME_NAME; the option wins, and the variable wins over the "
+      "scene.");
+  Options options;
+  Raw raw;
+  CLI::App* devices = app.add_subcommand("devices", "What can run here, and why something cannot");
+  add_output_options(*devices, options);
+  CLI::App* run = add_run(app, options, raw);
+  CLI::App* compare = add_compare(app, options, raw);
+  for (const char* name : k_later_commands)
+    app.add_subcommand(name, "not in this version")->group("")->allow_extras()->set_help_flag();
+  check_command(app, argc, argv);
+  ignore_variables_of_others(app, argv[1]);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw UsageError(error.what());
+    app.exit(error, std::cout, std::cerr);
+    return std::nullopt;
+  }
+  for (const char* name : k_later_commands)
+    if (app.got_subcommand(name)) throw UsageError(fmt::format("the command '{}' is not in this version", name));
+  options.command = *devices ? Command::devices : *run ? Command::run : Command::compare;
+  if (!*devices) refuse_later_options(*run ? *run : *compare);
+  understand(raw, options);
+  settle_length(argc, argv, options);
+  return options;
+}
+
+}  // namespace squall::app

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene.h"
+#include "core/settings.h"
+
+namespace squall::app {
+
+enum class Command { devices, run, compare };
+enum class Format { squall, google_benchmark };
+
+/// The command line and SQUALL_* variables, checked. Empty or absent: not given.
+struct Options {
+  Command command = Command::devices;
+  std::string scene;
+  std::vector<std::string> backends;
+  std::string device;
+  std::vector<int> threads;
+  std::optional<Simd> simd;
+  std::optional<Precision> precision;
+  std::optional<Pressure> pressure;
+  std::vector<Readback> readbacks;
+  std::optional<std::int64_t> particles;
+  std::optional<int> frames;
+  std::optional<double> seconds;
+  std::optional<double> dt_max_s;
+  std::optional<double> budget_ms;
+  std::uint64_t seed = 1;
+  std::string out;
+  int save_every = 0;  ///< frames; 0: never
+  std::string json;    ///< file, or "-" for stdout
+  Format format = Format::squall;
+  bool quiet = false;
+  bool print_scene = false;
+
+  bool json_alone() const { return json == "-"; }  ///< stdout holds the JSON and nothing else
+};
+
+/// Values of options; throw UsageError for an unknown one and for one that this version does not have.
+Pressure parse_pressure(const std::string& text);
+Precision parse_precision(const std::string& text);
+Simd parse_simd(const std::string& text);
+Readback parse_readback(const std::string& text);
+std::string parse_backend(const std::string& text);
+
+/// Frames a run takes: --frames, else --seconds, else the scene's duration.
+int frames_of(const Options& options, const Scene& scene);
+
+}  // namespace squall::app

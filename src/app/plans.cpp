@@ -1,0 +1,225 @@
+#include "app/plans.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "app/exit_codes.h"
+#include "core/errors.h"
+
+namespace squall::app {
+
+namespace {
+
+using harness::RunPlan;
+
+const BackendInfo& find_backend(const std::vector<BackendInfo>& backends, const std::string& name) {
+  const auto found =
+      std::find_if(backends.begin(), backends.end(), [&](const BackendInfo& info) { return info.name == name; });
+  if (found == backends.end()) throw DeviceError("backend '" + name + "' is unknown to this build");
+  return *found;
+}
+
+/// Why nothing of a backend can run; empty if something can.
+std::string problem_of(const BackendInfo& backend) {
+  if (!backend.problem.empty()) return backend.problem;
+  std::string problems;
+  for (const auto& device : backend.devices) {
+    if (device.problem.empty()) return "";
+    problems += fmt::format("{}{} {}: {}", problems.empty() ? "" : "; ", device.index, device.name, device.problem);
+  }
+  return problems.empty() ? "no device" : problems;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool is_index(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// Devices with this index or part of the name; all for an empty text. Throws DeviceError if there is none.
+std::vector<DeviceInfo> select_devices(const BackendInfo& backend, const std::string& text) {
+  std::vector<DeviceInfo> selected;
+  std::string names;
+  for (const auto& device : backend.devices) {
+    const bool matches = is_index(text) ? std::to_string(device.index) == text
+                                        : lower(device.name).find(lower(text)) != std::string::npos;
+    if (matches) selected.push_back(device);
+    names += fmt::format("{}{} {}", names.empty() ? "" : ", ", device.index, device.name);
+  }
+  if (selected.empty())
+    throw DeviceError(
+        fmt::format("{} has no device '{}'; it has {}", backend.name, text, names.empty() ? "none" : names));
+  return selected;
+}
+
+RunPlan base_plan(const Options& options, const Workload& workload, const std::string& backend) {
+  RunPlan plan;
+  plan.backend = backend;
+  plan.settings.pressure = workload.pressure;
+  plan.settings.seed = options.seed;
+  plan.settings.precision = Precision::single_precision;
+  if (backend == "reference") plan.settings.precision = options.precision.value_or(Precision::double_precision);
+  if (backend == "omp" && options.simd) plan.settings.simd = *options.simd;
+  return plan;
+}
+
+std::string threads_text(int threads) {
+  return threads == 0 ? "" : fmt::format(", {} thread{}", threads, threads == 1 ? "" : "s");
+}
+
+void name_plan(RunPlan& plan) {
+  const Settings& settings = plan.settings;
+  plan.label = plan.backend;
+  if (plan.backend == "reference")
+    plan.label += settings.precision == Precision::double_precision ? ", double" : ", single";
+  if (plan.backend == "opencl") plan.label += fmt::format(" {}, {}", settings.device, to_string(settings.readback));
+  plan.label += threads_text(settings.threads);
+}
+
+void refuse_double(const Options& options, bool with_reference) {
+  if (options.precision == Precision::double_precision && !with_reference)
+    throw UsageError(
+        "--precision double with omp or opencl is not in this version; it has it with --backend reference");
+}
+
+std::string default_backend(const Options& options, const std::vector<BackendInfo>& backends) {
+  if (!options.backends.empty()) return options.backends.front();
+  if (!options.device.empty()) return "opencl";
+  if (!problem_of(find_backend(backends, "omp")).empty())
+    throw DeviceError("backend omp cannot run: " + problem_of(find_backend(backends, "omp")) +
+                      "; name another by --backend");
+  return "omp";
+}
+
+void check_run(const Options& options, const std::string& backend) {
+  if (!options.device.empty() && backend != "opencl")
+    throw UsageError(fmt::format(
+        "--device picks an OpenCL device; {} has none to pick: leave it out or add --backend opencl", backend));
+  if (options.simd && backend != "omp")
+    throw UsageError(fmt::format("--simd belongs to backend omp; {} has no such choice", backend));
+  if (!options.threads.empty() && options.threads.front() != 1 && backend == "reference")
+    throw UsageError("backend reference has one thread; leave --threads out or pick another --backend");
+  refuse_double(options, backend == "reference");
+}
+
+/// Thread counts to compare omp with: as asked, else 1 and all.
+std::vector<int> omp_threads(const Options& options, const BackendInfo& omp) {
+  if (!options.threads.empty()) return options.threads;
+  const int all = omp.devices.empty() ? 1 : omp.devices.front().compute_units;
+  return all > 1 ? std::vector<int>{1, all} : std::vector<int>{1};
+}
+
+class ComparisonPlanner {
+ public:
+  ComparisonPlanner(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends)
+      : options_(options), workload_(workload), backends_(backends) {}
+
+  Plans plan() {
+    if (asked("reference")) add(base_plan(options_, workload_, "reference"), true);
+    if (wanted("omp")) add_omp();
+    if (wanted("opencl")) add_opencl();
+    return std::move(result_);
+  }
+
+ private:
+  bool asked(const std::string& backend) const {
+    return std::count(options_.backends.begin(), options_.backends.end(), backend) > 0;
+  }
+  bool wanted(const std::string& backend) {
+    if (!options_.backends.empty() && !asked(backend)) return false;
+    const bool by_name = asked(backend) || (backend == "opencl" && !options_.device.empty());
+    const std::string problem = problem_of(find_backend(backends_, backend));
+    if (problem.empty()) return true;
+    if (by_name) throw DeviceError("backend " + backend + " cannot run: " + problem);
+    result_.left_out.push_back(backend + " is left out: " + problem);
+    return false;
+  }
+  void add(RunPlan plan, bool strict) {
+    plan.strict = strict;
+    if (options_.frames || options_.seconds) plan.frames = frames_of(options_, workload_.scene);
+    name_plan(plan);
+    result_.plans.push_back(std::move(plan));
+  }
+  void add_omp() {
+    const BackendInfo& omp = find_backend(backends_, "omp");
+    for (const int threads : omp_threads(options_, omp)) {
+      RunPlan plan = base_plan(options_, workload_, "omp");
+      plan.settings.threads = threads;
+      add(std::move(plan), omp.devices.empty() || omp.devices.front().bitwise);
+    }
+  }
+  void add_opencl() {
+    for (const DeviceInfo& device : select_devices(find_backend(backends_, "opencl"), options_.device)) {
+      if (!device.problem.empty()) {
+        if (!options_.device.empty()) throw DeviceError(device.name + " cannot run: " + device.problem);
+        result_.left_out.push_back(device.name + " is left out: " + device.problem);
+        continue;
+      }
+      // A GPU has no threads to choose.
+      const bool splits = device.kind == "cpu" && !options_.threads.empty();
+      for (const int threads : splits ? options_.threads : std::vector<int>{0}) add_device(device, threads);
+    }
+  }
+  void add_device(const DeviceInfo& device, int threads) {
+    static constexpr Readback k_all[] = {Readback::none, Readback::blocking, Readback::mapped, Readback::pinned};
+    const auto& asked_for = options_.readbacks;
+    for (const Readback mode : k_all) {
+      if (!asked_for.empty() && std::count(asked_for.begin(), asked_for.end(), mode) == 0) continue;
+      RunPlan plan = base_plan(options_, workload_, "opencl");
+      plan.settings.device = std::to_string(device.index);
+      plan.settings.threads = threads;
+      plan.settings.readback = mode;
+      add(std::move(plan), device.bitwise);
+    }
+  }
+
+  const Options& options_;
+  const Workload& workload_;
+  const std::vector<BackendInfo>& backends_;
+  Plans result_;
+};
+
+}  // namespace
+
+RunPlan plan_run(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
+  const std::string name = default_backend(options, backends);
+  check_run(options, name);
+  const BackendInfo& backend = find_backend(backends, name);
+  if (const auto problem = problem_of(backend); !problem.empty())
+    throw DeviceError("backend " + name + " cannot run: " + problem);
+  const DeviceInfo device = select_devices(backend, options.device).front();
+  if (!device.problem.empty()) throw DeviceError(device.name + " cannot run: " + device.problem);
+
+  RunPlan plan = base_plan(options, workload, name);
+  plan.strict = device.bitwise;
+  if (name == "opencl") plan.settings.device = std::to_string(device.index);
+  if (!options.threads.empty()) plan.settings.threads = options.threads.front();
+  if (!options.readbacks.empty()) plan.settings.readback = options.readbacks.front();
+  plan.frames = frames_of(options, workload.scene);
+  // First launches cost up to a second on some devices; the reference has nothing to warm up.
+  plan.warm_up_frames = name == "reference" ? 0 : 2;
+  plan.rewind = true;
+  name_plan(plan);
+  return plan;
+}
+
+Plans plan_comparison(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
+  const auto& asked = options.backends;
+  refuse_double(options, std::count(asked.begin(), asked.end(), "reference") > 0);
+  return ComparisonPlanner(options, workload, backends).plan();
+}
+
+const DeviceInfo& device_of(const RunPlan& plan, const std::vector<BackendInfo>& backends) {
+  const BackendInfo& backend = find_backend(backends, plan.backend);
+  for (const auto& device : backend.devices)
+    if (plan.backend != "opencl" || std::to_string(device.index) == plan.settings.device) return device;
+  throw DeviceError("backend " + plan.backend + " has no device " + plan.settings.device);
+}
+
+}  // namespace squall::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "app/workload.h"
+#include "backends.h"
+#include "harness/row.h"
+
+namespace squall::app {
+
+/// Plans and what was left out of them, one sentence each.
+struct Plans {
+  std::vector<harness::RunPlan> plans;
+  std::vector<std::string> left_out;
+};
+
+/// The one plan of `squall run`. Throws UsageError for options that contradict each other and DeviceError, with the
+/// likely causes, if the backend or device asked for cannot run.
+harness::RunPlan plan_run(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends);
+
+/// The plans of `squall compare`: omp with 1 and with all threads, each OpenCL device with every read-back mode, or
+/// what the options ask for. What was not asked for by name and cannot run is left out with its reason. Throws like
+/// plan_run.
+Plans plan_comparison(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends);
+
+/// The device that a plan runs on.
+const DeviceInfo& device_of(const harness::RunPlan& plan, const std::vector<BackendInfo>& backends);
+
+}  // namespace squall::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace squall::app {
+
+/// A bar with the time left on stderr; silent where stderr is no terminal or --quiet is set. Erased when it goes.
+class Progress {
+ public:
+  Progress(bool quiet, std::string what);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(int done, int total);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool shown_;
+  std::string what_;
+  Clock::time_point start_, last_;
+};
+
+}  // namespace squall::app

@@ -1,0 +1,39 @@
+#include "app/workload.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/terminal.h"
+
+namespace squall::app {
+
+Workload load_workload(const Options& options) {
+  Workload workload;
+  Scene& scene = workload.scene;
+  scene = load_scene(options.scene);
+  if (options.particles) scale_to_particles(scene, *options.particles);
+  if (options.dt_max_s) scene.solver.dt_max_s = *options.dt_max_s;
+  validate(scene);
+  workload.pressure = options.pressure ? *options.pressure : scene.solver.pressure.value_or(Pressure::wcsph);
+  workload.info = {scene.name, scene_hash(scene), particle_capacity(scene)};
+  // Stored scenes must find their particle files from any folder.
+  const auto folder = std::filesystem::absolute(options.scene).parent_path();
+  for (auto& file : scene.particle_files) file.file = (folder / file.file).lexically_normal().string();
+  return workload;
+}
+
+std::string headline(const Workload& workload) {
+  const Scene& scene = workload.scene;
+  return fmt::format("{}: {} particles{}, spacing {:.4g} mm, {}", scene.name, with_commas(workload.info.particles),
+                     scene.rains.empty() ? "" : " in the end", 1000.0 * scene.fluid.spacing_m,
+                     to_string(workload.pressure));
+}
+
+std::string print_workload(const Workload& workload) {
+  Scene scene = workload.scene;
+  scene.solver.pressure = workload.pressure;
+  return print_scene(scene);
+}
+
+}  // namespace squall::app

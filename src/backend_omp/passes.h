@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+
+#include "backend_omp/neighbour_list.h"
+#include "core/settings.h"
+#include "params.h"
+
+namespace squall::openmp {
+
+/// A particle, 32 bytes, so that one cache line holds two and one load all that a neighbour needs.
+struct alignas(32) Record {
+  float x, y, z;        ///< m
+  float pressure_term;  ///< what a neighbour needs of the pressure (reference_passes.h); unused between sub-steps
+  float vx, vy, vz;     ///< m/s
+  float volume_term;    ///< what a neighbour needs of the volume; unused between sub-steps
+};
+static_assert(sizeof(Record) == 32);
+
+/// Records behind the last one, far away, so that a block may load lanes it does not have.
+inline constexpr int k_padding = 64;
+
+/// Which terms the scene names.
+struct PassTerms {
+  Pressure pressure;
+  bool viscosity;
+  bool drag;
+};
+
+/// What the passes of a sub-step read and write. Rows are rows of cells; a thread works on its own.
+struct PassContext {
+  const Params<float>* params;
+  const Substep<float>* substep;
+  const Box<float>* boxes;
+  PassTerms terms;
+  const int* cell_start;  ///< cell_count + 3
+  Record* sorted;         ///< in canonical order
+  Record* next;           ///< where the state after the sub-step goes, same order
+  float* density;         ///< relative, per sorted particle
+  float* pressure;        ///< p/rho0 [m^2/s^2], per sorted particle; mueller only
+  float* isolation;       ///< per sorted particle; with drag only
+};
+
+/// What a thread finds out about its rows.
+struct PassResult {
+  float max_speed2 = 0.0f;
+  float max_acceleration2 = 0.0f;
+  std::int64_t clamps = 0;
+  std::int64_t lost = 0;
+  std::int64_t neighbours = 0;
+  double density_error_sum = 0.0;
+  float density_error_max = 0.0f;
+};
+
+/// The passes for one instruction set, over rows [first, end).
+struct Passes {
+  /// Finds neighbours (into `list`, from its beginning) and computes density, pressure and the terms neighbours need.
+  void (*density)(const PassContext&, int first_row, int end_row, NeighbourList& list);
+  /// Accelerations from the same lists, then kick, drift and the safety net.
+  void (*forces)(const PassContext&, int first_row, int end_row, const NeighbourList& list, PassResult& result);
+  /// Counts neighbours within H and sums density errors, from the same lists.
+  void (*statistics)(const PassContext&, int first_row, int end_row, const NeighbourList& list, PassResult& result);
+};
+
+/// For an instruction set that is available.
+const Passes& passes_for(Simd simd);
+
+const Passes& scalar_passes();
+const Passes& avx2_passes();
+const Passes& avx512_passes();
+
+}  // namespace squall::openmp

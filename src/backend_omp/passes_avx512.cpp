@@ -1,0 +1,13 @@
+#include "backend_omp/highway_pack.h"
+//
+#include "backend_omp/passes-inl.h"
+
+#if HWY_STATIC_TARGET != HWY_AVX3
+#error "compile this file for AVX-512 F, BW, CD, DQ and VL"
+#endif
+
+namespace squall::openmp {
+
+const Passes& avx512_passes() { return BlockPasses<Pack>::table(); }
+
+}  // namespace squall::openmp

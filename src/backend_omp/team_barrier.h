@@ -1,0 +1,45 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace squall::openmp {
+
+/// A barrier for the threads of one team. It spins for some microseconds, the length of a well-balanced pass's
+/// imbalance, and then sleeps: OpenMP runtimes spin for milliseconds, which stalls the team whenever another process
+/// has one of its cores.
+class TeamBarrier {
+ public:
+  explicit TeamBarrier(int threads) : threads_(threads) {}
+
+  /// Returns when all threads of the team have called it; what they wrote before is then visible to all.
+  void wait() {
+    const std::uint32_t phase = phase_.load(std::memory_order_acquire);
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads_) {
+      arrived_.store(0, std::memory_order_relaxed);
+      phase_.fetch_add(1, std::memory_order_release);
+      phase_.notify_all();
+      return;
+    }
+    for (int spin = 0; spin < k_spins; ++spin) {
+      if (phase_.load(std::memory_order_acquire) != phase) return;
+      pause();
+    }
+    while (phase_.load(std::memory_order_acquire) == phase) phase_.wait(phase, std::memory_order_acquire);
+  }
+
+ private:
+  static constexpr int k_spins = 1000;
+
+  static void pause() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+  }
+
+  const int threads_;
+  alignas(64) std::atomic<int> arrived_{0};
+  alignas(64) std::atomic<std::uint32_t> phase_{0};
+};
+
+}  // namespace squall::openmp

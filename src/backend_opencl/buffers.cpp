@@ -1,0 +1,104 @@
+#include "backend_opencl/buffers.h"
+
+#include <algorithm>
+#include <new>
+
+#include "chunks.h"
+#include "core/frame_plan.h"
+
+namespace squall::opencl {
+
+namespace {
+
+constexpr std::size_t k_page = 4096;
+constexpr std::size_t k_record_bytes = 32;
+
+// A buffer of no bytes is an error in OpenCL.
+std::size_t at_least_one(std::size_t count) { return std::max<std::size_t>(count, 1); }
+
+std::size_t round_up(std::size_t value, std::size_t step) { return (value + step - 1) / step * step; }
+
+struct Request {
+  cl::Buffer Buffers::*member;
+  MemoryNeed need;
+};
+
+std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
+  const std::size_t room = at_least_one(layout.capacity);
+  const std::size_t keys = static_cast<std::size_t>(layout.params.cell_count) + 2;
+  return {
+      {&Buffers::records, {"particle records", round_up(room * k_record_bytes, k_page)}},
+      {&Buffers::sorted, {"sorted particle records", room * k_record_bytes}},
+      {&Buffers::keys, {"cells of particles", room * sizeof(cl_int)}},
+      {&Buffers::histograms, {"cell histograms", shape.chunks * keys * sizeof(cl_int)}},
+      {&Buffers::totals, {"cell totals", shape.ranges * sizeof(cl_int)}},
+      {&Buffers::cell_start, {"cell starts", (keys + 1) * sizeof(cl_int)}},
+      {&Buffers::densities, {"densities", room * sizeof(cl_float)}},
+      {&Buffers::isolations, {"isolations", layout.drag ? room * sizeof(cl_float) : sizeof(cl_float)}},
+      {&Buffers::neighbours, {"neighbour counts", layout.statistics ? room * sizeof(cl_int) : sizeof(cl_int)}},
+      {&Buffers::maxima, {"maxima", shape.chunks * sizeof(cl_float2)}},
+      {&Buffers::clamps, {"clamps", sizeof(cl_int)}},
+      {&Buffers::summaries, {"frame summaries", shape.chunks * sizeof(ChunkSummary)}},
+      {&Buffers::substeps, {"sub-step table", k_max_substeps * sizeof(Substep<float>)}},
+      {&Buffers::params, {"constants", sizeof(Params<float>), true}},
+      {&Buffers::boxes, {"boxes", at_least_one(layout.boxes.size()) * sizeof(Box<float>), true}},
+      {&Buffers::groups, {"held blocks", at_least_one(layout.groups.size()) * sizeof(HeldGroup), true}},
+  };
+}
+
+template <class Value>
+void upload(cl::CommandQueue& queue, const cl::Buffer& buffer, const std::vector<Value>& values) {
+  if (!values.empty()) queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(Value), values.data());
+}
+
+}  // namespace
+
+void PageDeleter::operator()(std::byte* memory) const { ::operator delete[](memory, std::align_val_t{k_page}); }
+
+Pages allocate_pages(std::size_t bytes) {
+  return Pages(
+      static_cast<std::byte*>(::operator new[](round_up(at_least_one(bytes), k_page), std::align_val_t{k_page})));
+}
+
+WorkShape make_shape(const Machine& machine, const Layout& layout) {
+  WorkShape shape;
+  shape.particles = round_up(at_least_one(layout.capacity), shape.group);
+  shape.chunks = shape.ranges = at_least_one(static_cast<std::size_t>(machine.compute_units));
+  if (machine.is_cpu) return shape;
+  // Many chunks for many processors, as long as their histograms stay small beside the device's memory.
+  constexpr std::size_t k_histogram_bytes = std::size_t{256} << 20;
+  constexpr std::size_t k_most_chunks = 2048;
+  const std::size_t keys = static_cast<std::size_t>(layout.params.cell_count) + 2;
+  shape.chunk_group = 32;
+  shape.chunks = std::clamp(round_up(layout.capacity / 64, 32), std::size_t{32}, k_most_chunks);
+  shape.chunks = std::clamp(k_histogram_bytes / (keys * sizeof(cl_int)) / 32 * 32, std::size_t{32}, shape.chunks);
+  shape.ranges = 512;
+  return shape;
+}
+
+std::vector<MemoryNeed> memory_needs(const Layout& layout, const WorkShape& shape) {
+  std::vector<MemoryNeed> needs;
+  for (const auto& request : requests(layout, shape)) needs.push_back(request.need);
+  for (int turn = 0; turn < 2; ++turn)
+    needs.push_back({"particle ids", at_least_one(layout.capacity) * sizeof(cl_uint)});
+  return needs;
+}
+
+Buffers make_buffers(Machine& machine, const Layout& layout, const WorkShape& shape, bool share_records) {
+  Buffers buffers;
+  for (const auto& [member, need] : requests(layout, shape)) {
+    const bool shared = share_records && member == &Buffers::records;
+    if (shared) buffers.record_pages = allocate_pages(need.bytes);
+    const cl_mem_flags flags = shared ? CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR : CL_MEM_READ_WRITE;
+    buffers.*member = cl::Buffer(machine.context, flags, need.bytes, shared ? buffers.record_pages.get() : nullptr);
+  }
+  for (auto& ids : buffers.ids)
+    ids = cl::Buffer(machine.context, CL_MEM_READ_WRITE, at_least_one(layout.capacity) * sizeof(cl_uint));
+  upload(machine.queue, buffers.params, std::vector<Params<float>>{layout.params});
+  upload(machine.queue, buffers.boxes, layout.boxes);
+  upload(machine.queue, buffers.groups, layout.groups);
+  upload(machine.queue, buffers.substeps, std::vector<Substep<float>>(1));
+  return buffers;
+}
+
+}  // namespace squall::opencl

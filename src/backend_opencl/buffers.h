@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "backend_opencl/device.h"
+#include "core/settings.h"
+#include "params.h"
+
+namespace squall::opencl {
+
+/// What a solver knows before it allocates.
+struct Layout {
+  Params<float> params;
+  std::vector<Box<float>> boxes;
+  std::vector<HeldGroup> groups;
+  std::size_t capacity = 0;  ///< particles
+  bool drag = false;
+  bool statistics = false;
+  Readback readback = Readback::none;
+};
+
+/// How work is cut into work-items. Fixed for a run, so that a compiler that specialises kernels by shape meets each
+/// shape once, before the first frame.
+struct WorkShape {
+  std::size_t particles = 0;  ///< work-items, one per particle there is room for, in groups of `group`
+  std::size_t group = 64;
+  std::size_t chunks = 1;  ///< of particles, where order matters
+  std::size_t ranges = 1;  ///< of cells
+  std::size_t chunk_group = 1;
+};
+WorkShape make_shape(const Machine& machine, const Layout& layout);
+
+/// Memory aligned to pages, for buffers that a device shares with the host.
+struct PageDeleter {
+  void operator()(std::byte* memory) const;
+};
+using Pages = std::unique_ptr<std::byte[], PageDeleter>;
+Pages allocate_pages(std::size_t bytes);
+
+/// Everything on the device. A record is 32 bytes: {x, y, z, spare, vx, vy, vz, spare}.
+struct Buffers {
+  cl::Buffer records;                ///< between sub-steps, in the order of the last sort
+  cl::Buffer sorted;                 ///< within a sub-step
+  cl::Buffer ids[2];                 ///< take turns: the sort reads one and writes the other
+  cl::Buffer keys;                   ///< cell of each particle
+  cl::Buffer histograms;             ///< per chunk: particles per cell, then where they go
+  cl::Buffer totals;                 ///< particles per range of cells
+  cl::Buffer cell_start;             ///< cell_count + 3: cells, held, lost, end
+  cl::Buffer densities, isolations;  ///< in sorted order
+  cl::Buffer neighbours;             ///< likewise
+  cl::Buffer maxima;                 ///< per chunk: |v|^2 and |a|^2 of the frame so far
+  cl::Buffer clamps;                 ///< of the frame
+  cl::Buffer summaries;              ///< per chunk, at the end of a frame
+  cl::Buffer substeps;               ///< the frame's table
+  cl::Buffer params, boxes, groups;  ///< constants
+  Pages record_pages;                ///< where `records` lies, if the host shares it
+};
+
+/// Sizes of all buffers, for check_limits.
+std::vector<MemoryNeed> memory_needs(const Layout& layout, const WorkShape& shape);
+
+/// Allocates, and uploads the constants. `share_records` puts the records into host memory.
+Buffers make_buffers(Machine& machine, const Layout& layout, const WorkShape& shape, bool share_records);
+
+}  // namespace squall::opencl

@@ -1,0 +1,190 @@
+#include "backend_opencl/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+
+#include "backend_opencl/errors.h"
+#include "backend_opencl/opencl_backend.h"
+
+namespace squall::opencl {
+
+namespace {
+
+// Every kernel with one work-item per particle runs in groups of this many (buffers.h).
+constexpr std::size_t k_smallest_group = 64;
+
+std::string kind_of(cl_device_type type) {
+  if (type & CL_DEVICE_TYPE_CPU) return "cpu";
+  return type & CL_DEVICE_TYPE_GPU ? "gpu" : "accelerator";
+}
+
+/// "OpenCL 1.2 ..." and everything after it; 1.0 and 1.1 lack what the kernels use.
+bool is_version_1_2(const std::string& version) {
+  return version.rfind("OpenCL 1.0", 0) != 0 && version.rfind("OpenCL 1.1", 0) != 0;
+}
+
+std::string what_is_missing(const cl::Device& device) {
+  if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "the driver says it is not available";
+  if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "its driver has no compiler";
+  if (!device.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) return "it is big-endian";
+  if (!is_version_1_2(device.getInfo<CL_DEVICE_VERSION>())) return "OpenCL 1.2 is needed";
+  if (device.getInfo<CL_DEVICE_PROFILE>() != "FULL_PROFILE") return "the full OpenCL profile is needed";
+  if (device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>() < k_smallest_group) return "work groups of 64 are needed";
+  return "";
+}
+
+bool promises_bits(const cl::Device& device) {
+  constexpr cl_device_fp_config k_needed =
+      CL_FP_FMA | CL_FP_DENORM | CL_FP_ROUND_TO_NEAREST | CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+  return (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & k_needed) == k_needed;
+}
+
+DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int index) {
+  DeviceInfo info;
+  info.backend = "opencl";
+  info.index = index;
+  try {
+    info.name = device.getInfo<CL_DEVICE_NAME>();
+    info.platform = platform.getInfo<CL_PLATFORM_NAME>();
+    info.driver = device.getInfo<CL_DRIVER_VERSION>();
+    info.version = device.getInfo<CL_DEVICE_VERSION>();
+    info.kind = kind_of(device.getInfo<CL_DEVICE_TYPE>());
+    info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+    info.bitwise = promises_bits(device);
+    info.problem = what_is_missing(device);
+  } catch (const cl::Error& error) {
+    info.problem = device_error(error, info.name).what();
+    info.bitwise = false;
+  }
+  return info;
+}
+
+std::vector<cl::Device> devices_of(const cl::Platform& platform) {
+  std::vector<cl::Device> devices;
+  try {
+    platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+  } catch (const cl::Error& error) {
+    if (error.err() != CL_DEVICE_NOT_FOUND) throw;
+  }
+  return devices;
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string list_of(const std::vector<DeviceInfo>& devices) {
+  std::string text = "there are:";
+  for (const auto& device : devices) text += "\n  " + std::to_string(device.index) + ": " + device.name;
+  return text;
+}
+
+std::size_t find_wanted(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+  if (wanted.empty()) return 0;
+  const bool digits = std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    if (digits && std::to_string(devices[i].index) == wanted) return i;
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    if (lower_case(devices[i].name).find(lower_case(wanted)) != std::string::npos) return i;
+  return devices.size();
+}
+
+/// Part of a CPU device with this many compute units; the whole where the device cannot be divided.
+cl::Device limit_threads(cl::Device device, int threads) {
+  const auto units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  if (threads <= 0 || static_cast<cl_uint>(threads) >= units) return device;
+  const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS, threads,
+                                                    CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+  std::vector<cl::Device> parts;
+  try {
+    device.createSubDevices(by_counts, &parts);
+  } catch (const cl::Error&) {
+    return device;
+  }
+  return parts.empty() ? device : parts.front();
+}
+
+std::string mebibytes(cl_ulong bytes) { return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB"; }
+
+[[noreturn]] void throw_too_large(const Machine& machine, const std::string& what, cl_ulong need, cl_ulong limit) {
+  throw DeviceError(machine.info.name + " cannot hold the scene: " + what + " need " + mebibytes(need) +
+                    ", the device allows " + mebibytes(limit) +
+                    "; use fewer particles, a larger spacing, a smaller container or another --device");
+}
+
+}  // namespace
+
+std::vector<FoundDevice> find_devices(std::string* problem) {
+  std::vector<FoundDevice> found;
+  std::string why;
+  try {
+    std::vector<cl::Platform> platforms;
+    cl::Platform::get(&platforms);
+    for (const auto& platform : platforms)
+      for (const auto& device : devices_of(platform))
+        found.push_back({device, describe(platform, device, static_cast<int>(found.size()))});
+    if (found.empty()) why = "no OpenCL driver offers a device (Debian: apt-get install pocl-opencl-icd)";
+  } catch (const cl::Error& error) {
+    why = device_error(error, "").what();
+  } catch (const std::exception& error) {
+    why = error.what();
+  }
+  if (problem) *problem = found.empty() ? why : "";
+  return found;
+}
+
+std::vector<DeviceInfo> devices(std::string* problem) {
+  std::vector<DeviceInfo> infos;
+  for (const auto& found : find_devices(problem)) infos.push_back(found.info);
+  return infos;
+}
+
+std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted,
+                          const std::string& problem) {
+  if (devices.empty()) throw DeviceError("no OpenCL device: " + problem);
+  const std::size_t chosen = find_wanted(devices, wanted);
+  if (chosen == devices.size())
+    throw DeviceError("no OpenCL device has the index or the name \"" + wanted + "\"; " + list_of(devices));
+  if (!devices[chosen].problem.empty())
+    throw DeviceError("OpenCL device " + devices[chosen].name + " cannot run: " + devices[chosen].problem + "; " +
+                      list_of(devices));
+  return chosen;
+}
+
+Machine open_machine(const Settings& settings) {
+  std::string problem;
+  const std::vector<FoundDevice> found = find_devices(&problem);
+  std::vector<DeviceInfo> infos;
+  for (const auto& one : found) infos.push_back(one.info);
+  const FoundDevice& chosen = found[choose_device(infos, settings.device, problem)];
+  return translate_errors(chosen.info.name, [&] {
+    Machine machine;
+    machine.info = chosen.info;
+    machine.is_cpu = chosen.info.kind == "cpu";
+    machine.device = machine.is_cpu ? limit_threads(chosen.device, settings.threads) : chosen.device;
+    machine.compute_units = static_cast<int>(machine.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+    machine.rounds_correctly =
+        (machine.device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    machine.context = cl::Context(machine.device);
+    machine.queue = cl::CommandQueue(machine.context, machine.device,
+                                     settings.profile ? cl_command_queue_properties{CL_QUEUE_PROFILING_ENABLE} : 0);
+    return machine;
+  });
+}
+
+void check_limits(const Machine& machine, const std::vector<MemoryNeed>& needs) {
+  const auto largest = machine.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  const auto constant = machine.device.getInfo<CL_DEVICE_MAX_CONSTANT_BUFFER_SIZE>();
+  const auto all = machine.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  cl_ulong sum = 0;
+  for (const auto& need : needs) {
+    const cl_ulong limit = need.constant ? constant : largest;
+    if (need.bytes > limit) throw_too_large(machine, need.what, need.bytes, limit);
+    sum += need.bytes;
+  }
+  if (sum > all) throw_too_large(machine, "all buffers together", sum, all);
+}
+
+}  // namespace squall::opencl

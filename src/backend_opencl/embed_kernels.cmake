@@ -1,0 +1,46 @@
+# cmake -DKERNEL_DIR=<folder> -DKERNELS=<a,b,...> -DOUTPUT=<file.cpp> -P embed_kernels.cmake
+#
+# Writes a C++ file that holds the kernels' text, every #include resolved, so that nothing is read from the source tree
+# at run time. #line directives let the device's compiler name the file and line that were written by hand.
+
+cmake_minimum_required(VERSION 3.25)
+
+# Appends `name` with its headers, each once, to the text in `result`.
+function(resolve name result)
+  get_property(seen GLOBAL PROPERTY resolved)
+  if(name IN_LIST seen)
+    return()
+  endif()
+  set_property(GLOBAL APPEND PROPERTY resolved "${name}")
+  file(READ "${KERNEL_DIR}/${name}" rest)
+  set(text "${${result}}#line 1 \"kernels/${name}\"\n")
+  set(line 1)
+  while(rest MATCHES "(^|\n)#include \"([^\"\n]+)\"[^\n]*")
+    set(directive "${CMAKE_MATCH_0}")
+    set(header "${CMAKE_MATCH_2}")
+    string(FIND "${rest}" "${directive}" position)
+    string(LENGTH "${directive}" length)
+    string(SUBSTRING "${rest}" 0 ${position} before)
+    math(EXPR after "${position} + ${length}")
+    string(SUBSTRING "${rest}" ${after} -1 rest)
+    string(REGEX REPLACE "[^\n]" "" newlines "${before}${directive}")
+    string(LENGTH "${newlines}" count)
+    math(EXPR line "${line} + ${count}")
+    string(APPEND text "${before}\n")
+    resolve("${header}" text)
+    string(APPEND text "#line ${line} \"kernels/${name}\"\n")
+  endwhile()
+  set(${result} "${text}${rest}" PARENT_SCOPE)
+endfunction()
+
+string(REPLACE "," ";" kernels "${KERNELS}")
+set(code "// Written by embed_kernels.cmake.\n#include \"backend_opencl/program.h\"\n\n")
+string(APPEND code "namespace squall::opencl {\n\nstd::vector<KernelSource> embedded_kernels() {\n  return {\n")
+foreach(kernel IN LISTS kernels)
+  set(source "")
+  set_property(GLOBAL PROPERTY resolved "")
+  resolve("${kernel}" source)
+  string(APPEND code "      {\"kernels/${kernel}\", R\"squall(${source})squall\"},\n")
+endforeach()
+string(APPEND code "  };\n}\n\n}  // namespace squall::opencl\n")
+file(WRITE "${OUTPUT}" "${code}")

@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "backend_opencl/buffers.h"
+#include "backend_opencl/completion.h"
+#include "backend_opencl/errors.h"
+#include "backend_opencl/launcher.h"
+#include "backend_opencl/opencl_backend.h"
+#include "backend_opencl/passes.h"
+#include "backend_opencl/program.h"
+#include "backend_opencl/readback.h"
+#include "backend_opencl/sort.h"
+#include "chunks.h"
+
+namespace squall::opencl {
+
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+double milliseconds(SteadyClock::time_point begin, SteadyClock::time_point end) {
+  return std::chrono::duration<double, std::milli>(end - begin).count();
+}
+
+/// As the kernels read it.
+struct Record {
+  float x, y, z, spare_0, vx, vy, vz, spare_1;
+};
+static_assert(sizeof(Record) == 32);
+
+class OpenclSolver final : public Solver {
+ public:
+  OpenclSolver(const Scene& scene, const Settings& settings)
+      : Solver(scene, settings), machine_(open_machine(settings)), launcher_(machine_.queue, settings.profile) {
+    translate_errors(device_name(), [&] { set_up(); });
+  }
+
+  SolverInfo info() const override { return {"opencl", machine_.info.name, "", machine_.compute_units, setup_ms_}; }
+
+ private:
+  void do_load(const Particles& particles) override {
+    count_ = 0;
+    do_append(particles);
+  }
+
+  void do_append(const Particles& particles) override {
+    translate_errors(device_name(), [&] { upload(particles); });
+  }
+
+  void do_advance(const FramePlan& plan, Delivery delivery, FrameReport& report) override {
+    translate_errors(device_name(), [&] { advance_frame(plan, delivery == Delivery::positions, report); });
+  }
+
+  PositionsView do_positions() override { return reader_->view(); }
+
+  Particles do_download() override {
+    return translate_errors(device_name(), [&] { return download(); });
+  }
+
+  const std::string& device_name() const { return machine_.info.name; }
+
+  void set_up();
+  void warm_up();
+  void upload(const Particles& particles);
+  Particles download();
+  void advance_frame(const FramePlan& plan, bool deliver, FrameReport& report);
+  void upload_table(const FramePlan& plan, FrameReport& report);
+  void enqueue_substep(int step, const Substep<double>& substep, bool deliver);
+  void fill_report(FrameReport& report) const;
+
+  Machine machine_;
+  Launcher launcher_;
+  WorkShape shape_;
+  Buffers buffers_;
+  std::optional<Sort> sort_;
+  std::optional<Passes> passes_;
+  std::optional<PositionReader> reader_;  // after the buffers: it unmaps before they go
+  std::vector<Substep<float>> table_;
+  std::vector<ChunkSummary> summaries_;
+  int count_ = 0;
+  int ids_now_ = 0;  ///< which of the two id buffers is current
+  double setup_ms_ = 0.0;
+};
+
+void OpenclSolver::set_up() {
+  Layout layout;
+  layout.params = to_single(params());
+  for (const auto& box : boxes()) layout.boxes.push_back(to_single(box));
+  layout.groups = held_groups();
+  layout.capacity = capacity();
+  layout.drag = !scene().rains.empty();
+  layout.statistics = settings().statistics;
+  layout.readback = settings().readback;
+  shape_ = make_shape(machine_, layout);
+  auto needs = memory_needs(layout, shape_);
+  for (const auto& need : PositionReader::memory_needs(layout)) needs.push_back(need);
+  check_limits(machine_, needs);
+
+  const auto begin = SteadyClock::now();
+  const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(),
+                                            build_options(scene(), settings().pressure, machine_.rounds_correctly));
+  const bool shared = layout.readback == Readback::mapped && shares_host_memory(machine_, program);
+  buffers_ = make_buffers(machine_, layout, shape_, shared);
+  sort_.emplace(program, buffers_, shape_);
+  passes_.emplace(program, buffers_, shape_);
+  reader_.emplace(machine_, program, buffers_, layout, shape_, shared);
+  summaries_.resize(shape_.chunks);
+  warm_up();
+  setup_ms_ = milliseconds(begin, SteadyClock::now());
+}
+
+/// Runs every kernel once, in the shape it will have, on no particles: some drivers compile that late.
+void OpenclSolver::warm_up() {
+  passes_->enqueue_release(launcher_, 0, 0, 0);
+  sort_->enqueue(launcher_, 0, 0, 0);
+  passes_->enqueue_density(launcher_, 0, false);
+  passes_->enqueue_density(launcher_, 0, true);
+  passes_->enqueue_forces(launcher_, 0, 0);
+  passes_->enqueue_summary(launcher_, 0, false);
+  reader_->warm_up(launcher_);
+  launcher_.queue().finish();
+  launcher_.take_times();
+}
+
+void OpenclSolver::upload(const Particles& particles) {
+  reader_->withdraw();
+  if (particles.size() == 0) return;
+  std::vector<Record> records(particles.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Eigen::Vector3f x = particles.positions[i].cast<float>();
+    const Eigen::Vector3f v = particles.velocities[i].cast<float>();
+    records[i] = {x[0], x[1], x[2], 0.0f, v[0], v[1], v[2], 0.0f};
+  }
+  const auto before = static_cast<std::size_t>(count_);
+  auto& queue = launcher_.queue();
+  queue.enqueueWriteBuffer(buffers_.records, CL_TRUE, before * sizeof(Record), records.size() * sizeof(Record),
+                           records.data());
+  queue.enqueueWriteBuffer(buffers_.ids[ids_now_], CL_TRUE, before * sizeof(cl_uint), records.size() * sizeof(cl_uint),
+                           particles.ids.data());
+  count_ += static_cast<int>(records.size());
+}
+
+Particles OpenclSolver::download() {
+  reader_->withdraw();
+  Particles particles;
+  if (count_ == 0) return particles;
+  const auto size = static_cast<std::size_t>(count_);
+  std::vector<Record> records(size);
+  std::vector<std::uint32_t> ids(size);
+  auto& queue = launcher_.queue();
+  queue.enqueueReadBuffer(buffers_.records, CL_TRUE, 0, size * sizeof(Record), records.data());
+  queue.enqueueReadBuffer(buffers_.ids[ids_now_], CL_TRUE, 0, size * sizeof(cl_uint), ids.data());
+  particles.reserve(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const Record& r = records[i];
+    particles.add(ids[i], {r.x, r.y, r.z}, {r.vx, r.vy, r.vz});
+  }
+  return particles;
+}
+
+void OpenclSolver::advance_frame(const FramePlan& plan, bool deliver, FrameReport& report) {
+  reader_->withdraw();
+  upload_table(plan, report);
+  bool statistics = false;
+  for (std::size_t step = 0; step < plan.substeps.size(); ++step) {
+    enqueue_substep(static_cast<int>(step), plan.substeps[step], deliver);
+    statistics = settings().statistics && plan.substeps[step].statistics != 0;
+  }
+  passes_->enqueue_summary(launcher_, count_, statistics);
+  auto& queue = launcher_.queue();
+  cl::Event summary_read;
+  queue.enqueueReadBuffer(buffers_.summaries, CL_FALSE, 0, summaries_.size() * sizeof(ChunkSummary), summaries_.data(),
+                          nullptr, &summary_read);
+  const Completion computed(summary_read);
+  if (deliver) reader_->enqueue_delivery(launcher_, count_);
+  queue.finish();
+  const auto finished = SteadyClock::now();
+  report.readback_ms = reader_->blocked_ms();
+  if (reader_->delivers_at_end()) report.readback_ms += milliseconds(computed.time(finished), finished);
+  report.readback_bytes = reader_->bytes();
+  fill_report(report);
+  if (settings().profile) report.phase_ms = launcher_.take_times();
+}
+
+void OpenclSolver::upload_table(const FramePlan& plan, FrameReport& report) {
+  const auto begin = SteadyClock::now();
+  table_.clear();
+  for (const auto& substep : plan.substeps) table_.push_back(to_single(substep));
+  launcher_.queue().enqueueWriteBuffer(buffers_.substeps, CL_FALSE, 0, table_.size() * sizeof(Substep<float>),
+                                       table_.data(), nullptr, launcher_.event("upload"));
+  report.upload_ms += milliseconds(begin, SteadyClock::now());
+}
+
+void OpenclSolver::enqueue_substep(int step, const Substep<double>& substep, bool deliver) {
+  if (substep.released_count > 0) passes_->enqueue_release(launcher_, step, count_, ids_now_);
+  sort_->enqueue(launcher_, step, count_, ids_now_);
+  ids_now_ = 1 - ids_now_;
+  passes_->enqueue_density(launcher_, step, settings().statistics && substep.statistics != 0);
+  passes_->enqueue_forces(launcher_, step, count_);
+  if (deliver) reader_->after_substep(launcher_, count_);
+}
+
+void OpenclSolver::fill_report(FrameReport& report) const {
+  ChunkSummary all{};
+  for (const auto& one : summaries_) {
+    all.density_error += one.density_error;
+    all.neighbours += one.neighbours;
+    all.max_speed2 = std::max(all.max_speed2, one.max_speed2);
+    all.max_acceleration2 = std::max(all.max_acceleration2, one.max_acceleration2);
+    all.max_density = std::max(all.max_density, one.max_density);
+    all.lost += one.lost;
+    all.active += one.active;
+    all.clamps += one.clamps;
+  }
+  report.active = all.active;
+  report.lost = all.lost;
+  report.clamps = all.clamps;
+  report.max_speed = std::sqrt(static_cast<double>(all.max_speed2));
+  report.max_acceleration = std::sqrt(static_cast<double>(all.max_acceleration2));
+  if (!settings().statistics || all.active == 0) return;
+  report.density_error_mean = std::ldexp(static_cast<double>(all.density_error), -32) / all.active;
+  report.density_error_max = std::max(0.0, static_cast<double>(all.max_density) - 1.0);
+  report.neighbours_mean = static_cast<double>(all.neighbours) / all.active;
+}
+
+}  // namespace
+
+std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings) {
+  if (settings.precision != Precision::single_precision)
+    throw InputError("the opencl backend computes in single precision; drop --precision double, or use --backend omp");
+  return std::make_unique<OpenclSolver>(scene, settings);
+}
+
+}  // namespace squall::opencl

@@ -1,0 +1,60 @@
+#include "backend_opencl/passes.h"
+
+#include "backend_opencl/kernel_arguments.h"
+
+namespace squall::opencl {
+
+std::string build_options(const Scene& scene, Pressure pressure, bool rounds_correctly) {
+  const auto flag = [](const char* name, bool value) { return std::string(" -D") + name + (value ? "=1" : "=0"); };
+  std::string options = "-cl-std=CL1.2";
+  if (rounds_correctly) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  return options + " -DSQUALL_LANES=1" + flag("SQUALL_WCSPH", pressure == Pressure::wcsph) +
+         flag("SQUALL_VISCOSITY", scene.fluid.viscosity_m2_s.has_value()) + flag("SQUALL_BOXES", !scene.boxes.empty()) +
+         flag("SQUALL_DRAG", !scene.rains.empty());
+}
+
+Passes::Passes(const cl::Program& program, const Buffers& buffers, const WorkShape& shape)
+    : ids_{buffers.ids[0], buffers.ids[1]},
+      shape_(shape),
+      release_(program, "release"),
+      density_(program, "density"),
+      density_statistics_(program, "density_statistics"),
+      forces_(program, "forces"),
+      summary_(program, "summary") {
+  set_arguments(release_, buffers.records, buffers.ids[0], buffers.params, buffers.groups, buffers.substeps, 0, 0);
+  set_arguments(density_, buffers.sorted, buffers.densities, buffers.isolations, buffers.cell_start, buffers.params,
+                buffers.boxes, buffers.substeps, 0);
+  set_arguments(density_statistics_, buffers.sorted, buffers.densities, buffers.isolations, buffers.cell_start,
+                buffers.params, buffers.boxes, buffers.substeps, 0, buffers.neighbours);
+  set_arguments(forces_, buffers.sorted, buffers.records, buffers.densities, buffers.isolations, buffers.cell_start,
+                buffers.clamps, buffers.params, buffers.boxes, buffers.substeps, 0, 0);
+  set_arguments(summary_, buffers.records, buffers.densities, buffers.neighbours, buffers.cell_start, buffers.maxima,
+                buffers.clamps, buffers.params, 0, 0, buffers.summaries);
+}
+
+void Passes::enqueue_release(Launcher& launcher, int step, int count, int ids_now) {
+  release_.setArg(1, ids_[ids_now]);
+  release_.setArg(5, step);
+  release_.setArg(6, count);
+  launcher.run(release_, shape_.particles, shape_.group, "release");
+}
+
+void Passes::enqueue_density(Launcher& launcher, int step, bool statistics) {
+  cl::Kernel& kernel = statistics ? density_statistics_ : density_;
+  kernel.setArg(7, step);
+  launcher.run(kernel, shape_.particles, shape_.group, "density");
+}
+
+void Passes::enqueue_forces(Launcher& launcher, int step, int count) {
+  forces_.setArg(9, step);
+  forces_.setArg(10, count);
+  launcher.run(forces_, shape_.particles, shape_.group, "forces");
+}
+
+void Passes::enqueue_summary(Launcher& launcher, int count, bool statistics) {
+  summary_.setArg(7, statistics ? 1 : 0);
+  summary_.setArg(8, count);
+  launcher.run(summary_, shape_.chunks, shape_.chunk_group, "summary");
+}
+
+}  // namespace squall::opencl

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "backend_opencl/buffers.h"
+#include "backend_opencl/launcher.h"
+#include "core/scene.h"
+
+namespace squall::opencl {
+
+/// Options for the kernels' compiler: switches of the scene and the device; no constants.
+std::string build_options(const Scene& scene, Pressure pressure, bool rounds_correctly);
+
+/// Everything of a sub-step but the sort, and the summary that ends a frame.
+class Passes {
+ public:
+  Passes(const cl::Program& program, const Buffers& buffers, const WorkShape& shape);
+
+  /// Before the sort: frees held particles whose moment this is.
+  void enqueue_release(Launcher& launcher, int step, int count, int ids_now);
+  void enqueue_density(Launcher& launcher, int step, bool statistics);
+  /// Acceleration, kick, drift, safety net.
+  void enqueue_forces(Launcher& launcher, int step, int count);
+  void enqueue_summary(Launcher& launcher, int count, bool statistics);
+
+ private:
+  cl::Buffer ids_[2];
+  WorkShape shape_;
+  cl::Kernel release_, density_, density_statistics_, forces_, summary_;
+};
+
+}  // namespace squall::opencl

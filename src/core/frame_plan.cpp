@@ -1,0 +1,103 @@
+#include "core/frame_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/timed_groups.h"
+
+namespace squall {
+
+namespace {
+
+/// How many of the ends (in falling order) lie after a time; an event within a millionth of a frame counts as reached.
+int lasting(const std::vector<double>& ends, double time, double frame_length) {
+  const auto reached = [&](double end) { return end <= time + 1e-6 * frame_length; };
+  return static_cast<int>(std::find_if(ends.begin(), ends.end(), reached) - ends.begin());
+}
+
+/// Gravity in the container's frame, averaged over [begin, end], so that no impulse of the container is lost.
+Eigen::Vector3d effective_gravity(const Scene& scene, double begin, double end) {
+  const Eigen::Vector3d gained = container_velocity(scene, end) - container_velocity(scene, begin);
+  return scene.gravity_m_s2 - gained / (end - begin);
+}
+
+/// Largest |gravity| felt during a frame, and the speed of blocks that may be released in it.
+double largest_gravity(const Scene& scene, double begin, double length) {
+  constexpr int k_samples = 16;
+  double largest = 0.0;
+  for (int i = 0; i < k_samples; ++i) {
+    const double from = begin + length * i / k_samples;
+    largest = std::max(largest, effective_gravity(scene, from, from + length / k_samples).norm());
+  }
+  return largest;
+}
+
+double largest_held_speed(const Scene& scene, double time) {
+  double largest = 0.0;
+  for (const auto& block : scene.blocks)
+    if (block.held_until_s && *block.held_until_s >= time) largest = std::max(largest, block.velocity_m_s.norm());
+  return largest;
+}
+
+/// Sub-steps of the frame; sets `limited` if more were wanted than there may be.
+int substep_count(const Scene& scene, Pressure pressure, const Clock& clock, double begin, double length,
+                  bool& limited) {
+  const double speed = std::max(clock.max_speed, largest_held_speed(scene, begin));
+  const double acceleration = std::max(clock.max_acceleration, largest_gravity(scene, begin, length));
+  const double wanted = std::ceil(length / time_step_limit(scene, pressure, speed + length * acceleration) - 1e-9);
+  limited = !(wanted <= k_max_substeps);
+  const int needed = limited ? k_max_substeps : std::max(1, static_cast<int>(wanted));
+  return std::max(needed, clock.previous_substeps - std::max(1, clock.previous_substeps / 10));
+}
+
+}  // namespace
+
+double time_step_limit(const Scene& scene, Pressure pressure, double speed_bound) {
+  const double support = scene.support_radius();
+  const double signal = pressure == Pressure::wcsph ? scene.speed_of_sound() : std::sqrt(scene.solver.stiffness_m2_s2);
+  double limit = std::min(scene.solver.dt_max_s, scene.solver.cfl * support / (signal + 1.2 * speed_bound));
+  // Explicit viscosity is stable below 0.115 H^2/nu (docs/physics.md).
+  const double viscosity = scene.fluid.viscosity_m2_s.value_or(0.0);
+  if (viscosity > 0.0) limit = std::min(limit, 0.1 * support * support / viscosity);
+  return limit;
+}
+
+FramePlan plan_frame(const Scene& scene, const Settings& settings, const Clock& clock) {
+  FramePlan plan;
+  const double length = 1.0 / scene.time.frame_rate_hz;
+  const double begin = static_cast<double>(clock.frame) / scene.time.frame_rate_hz;
+  const int count = substep_count(scene, settings.pressure, clock, begin, length, plan.limited);
+  plan.frame = clock.frame;
+  plan.dt = length / count;
+
+  const std::vector<double> boxes_end = box_ends(scene), groups_end = held_ends(scene);
+  double previous_dt = clock.previous_dt;
+  int held_before = lasting(groups_end, begin - previous_dt, length);
+  for (int s = 0; s < count; ++s) {
+    const double time = begin + plan.dt * s;
+    Substep<double> substep{};
+    substep.dt = plan.dt;
+    substep.kick = 0.5 * (previous_dt + plan.dt);
+    substep.previous_dt = previous_dt;
+    const Eigen::Vector3d gravity = effective_gravity(scene, time - 0.5 * previous_dt, time + 0.5 * plan.dt);
+    substep.acceleration_x = gravity.x();
+    substep.acceleration_y = gravity.y();
+    substep.acceleration_z = gravity.z();
+    if (!scene.rains.empty()) {
+      const Eigen::Vector3d wind = scene.rains.front().wind_m_s - container_velocity(scene, time);
+      substep.wind_x = wind.x();
+      substep.wind_y = wind.y();
+      substep.wind_z = wind.z();
+    }
+    substep.box_count = lasting(boxes_end, time, length);
+    substep.held_count = lasting(groups_end, time, length);
+    substep.released_count = held_before - substep.held_count;
+    substep.statistics = settings.statistics && s == count - 1 ? 1 : 0;
+    plan.substeps.push_back(substep);
+    previous_dt = plan.dt;
+    held_before = substep.held_count;
+  }
+  return plan;
+}
+
+}  // namespace squall

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace squall {
+
+/// What one frame was and cost. Times are wall clock [ms].
+struct FrameReport {
+  std::uint64_t frame = 0;  ///< index, from 0
+  int substeps = 0;
+  double dt_s = 0.0;
+  double iterations_mean = 0.0;  ///< pressure iterations per sub-step; 0 for solvers without
+  double frame_ms = 0.0;         ///< from the call of advance until the data asked for can be read, queue finished
+  double upload_ms = 0.0;        ///< plan and appended particles to the device
+  double readback_ms = 0.0;      ///< from compute complete to data readable
+  double compute_ms = 0.0;       ///< frame - readback - upload
+  std::map<std::string, double> phase_ms;  ///< with Settings::profile: sort, density, forces, ...; else empty
+
+  std::uint64_t readback_bytes = 0;  ///< bytes copied between device and host to deliver positions
+  std::int64_t particles = 0;        ///< all there are, lost ones included
+  std::int64_t active = 0;           ///< neither held nor lost, in the last sub-step
+  std::int64_t lost = 0;             ///< so far: not finite, or further away than ten container heights
+  std::int64_t clamps = 0;           ///< times a particle was put back behind a wall in this frame
+  double max_speed = 0.0;            ///< m/s, over the frame
+  double max_acceleration = 0.0;     ///< m/s^2, over the frame
+  bool time_step_limited = false;    ///< k_max_substeps was reached: lower the speeds, or raise the frame rate
+
+  double density_error_mean = 0.0;  ///< mean of max(rho/rho0 - 1, 0) over active particles, last sub-step
+  double density_error_max = 0.0;
+  double neighbours_mean = 0.0;                                      ///< within H, without self, last sub-step
+  Eigen::Vector3d container_displacement = Eigen::Vector3d::Zero();  ///< m, at the end of the frame
+};
+
+}  // namespace squall

@@ -1,0 +1,36 @@
+#include "core/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace squall {
+namespace {
+
+double fastest_start(const Scene& scene) {
+  double speed = 0.0;
+  for (const Scene::Block& block : scene.blocks) speed = std::max(speed, block.velocity_m_s.norm());
+  for (const Scene::ParticleFile& particle_file : scene.particle_files)
+    for (const Eigen::Vector3d& velocity : particle_file.particles.velocities) speed = std::max(speed, velocity.norm());
+  return speed;
+}
+
+}  // namespace
+
+double Scene::fluid_depth() const {
+  if (blocks.empty()) return container_size().y();
+  double top = blocks.front().max_m.y();
+  for (const Block& block : blocks) top = std::max(top, block.max_m.y());
+  return top - container.min_m.y();
+}
+
+double Scene::speed_of_sound() const {
+  if (solver.speed_of_sound_m_s) return *solver.speed_of_sound_m_s;
+  // Ten times the speed the water will reach keeps compression near 1 % (Monaghan 1994): that of a fall through its own
+  // depth; without gravity, that of the fastest start; 1 m/s where nothing moves.
+  double reached = std::sqrt(gravity_m_s2.norm() * fluid_depth());
+  if (reached == 0.0) reached = fastest_start(*this);
+  if (reached == 0.0) reached = 1.0;
+  return 10.0 * reached;
+}
+
+}  // namespace squall

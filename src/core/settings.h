@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace squall {
+
+/// Where pressure comes from.
+enum class Pressure {
+  mueller,  ///< Müller, Charypar, Gross 2003, as the 2016 report prints it
+  wcsph,    ///< weakly compressible: Tait's equation, one kernel for density and force
+};
+
+enum class Precision { single_precision, double_precision };
+
+/// Instruction set of the omp backend. `best` is the widest the machine has.
+enum class Simd { best, scalar, avx2, avx512 };
+
+/// How positions reach the host (docs/architecture.md). Backends in host memory deliver in place, whatever the mode.
+enum class Readback {
+  none,      ///< not at all: state stays on the device
+  blocking,  ///< float4 into pageable memory after every sub-step: what the 2016 report did
+  pinned,    ///< float4 into a mapped, pinned buffer once per frame
+  mapped,    ///< the particle buffer itself, mapped: no copy where device and host share memory
+};
+
+/// What a run is, beside its scene. The defaults are the best that this version has.
+struct Settings {
+  Pressure pressure = Pressure::wcsph;
+  Precision precision = Precision::single_precision;
+  Simd simd = Simd::best;
+  Readback readback = Readback::mapped;
+  int threads = 0;         ///< 0: as many as the machine has; CPU devices are split to this many compute units
+  std::string device;      ///< OpenCL device: its index in `squall devices`, or part of its name; empty: the first
+  std::uint64_t seed = 1;  ///< of the rain
+  bool statistics = true;  ///< fill density_error_* and neighbours_mean of the frame report
+  bool profile = false;    ///< fill phase_ms; slows OpenCL down
+};
+
+const char* to_string(Pressure pressure);
+const char* to_string(Precision precision);
+const char* to_string(Simd simd);
+const char* to_string(Readback readback);
+
+/// The other way round. Throws InputError that lists the valid names, and says so if a name is not in this version.
+Pressure pressure_from_text(const std::string& text);
+Precision precision_from_text(const std::string& text);
+Simd simd_from_text(const std::string& text);
+Readback readback_from_text(const std::string& text);
+
+}  // namespace squall

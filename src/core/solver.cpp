@@ -1,0 +1,162 @@
+#include "core/solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "boundary.h"
+#include "core/rain.h"
+#include "grid.h"
+
+namespace squall {
+
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+double milliseconds_since(SteadyClock::time_point start) {
+  return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
+}
+
+void check_shape(const Particles& particles, std::size_t room) {
+  const std::size_t count = particles.size();
+  if (particles.positions.size() != count || particles.velocities.size() != count)
+    throw InputError("particles have " + std::to_string(count) + " ids, " + std::to_string(particles.positions.size()) +
+                     " positions and " + std::to_string(particles.velocities.size()) + " velocities; give one of each");
+  if (count > room)
+    throw InputError(std::to_string(count) + " particles do not fit: there is room for " + std::to_string(room) +
+                     "; raise max_particles of the scene's rain or enlarge its blocks");
+}
+
+void check_unique(std::vector<std::uint32_t> ids) {
+  std::sort(ids.begin(), ids.end());
+  const auto twin = std::adjacent_find(ids.begin(), ids.end());
+  if (twin != ids.end())
+    throw InputError("particle id " + std::to_string(*twin) + " is given twice; ids must be unique");
+}
+
+/// Not finite where single precision would not be either, or further away than lost_distance on any side.
+bool is_to_be_lost(const Params<double>& p, const Eigen::Vector3d& x, const Eigen::Vector3d& v) {
+  const double position[3] = {x.x(), x.y(), x.z()};
+  return !is_kept(&p, position) || !(v.squaredNorm() <= static_cast<double>(std::numeric_limits<float>::max()));
+}
+
+void mark_lost(const Params<double>& p, Particles& particles) {
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (!is_to_be_lost(p, particles.positions[i], particles.velocities[i])) continue;
+    particles.positions[i].setConstant(static_cast<double>(SQUALL_LOST_COORDINATE));
+    particles.velocities[i].setZero();
+  }
+}
+
+double largest_speed(const Particles& particles) {
+  double largest = 0.0;
+  for (const auto& velocity : particles.velocities) largest = std::max(largest, velocity.norm());
+  return largest;
+}
+
+}  // namespace
+
+Solver::Solver(Scene scene, Settings settings) : scene_(std::move(scene)), settings_(std::move(settings)) {
+  validate(scene_);
+  if (settings_.threads < 0 || settings_.threads > 1024)
+    throw InputError("threads " + std::to_string(settings_.threads) + " is outside [0, 1024]; 0 uses all");
+  params_ = make_params(scene_, settings_.pressure);
+  boxes_ = make_boxes(scene_, settings_.pressure);
+  held_groups_ = make_held_groups(scene_);
+  capacity_ = static_cast<std::size_t>(particle_capacity(scene_));
+  clock_.rained.assign(scene_.rains.size(), 0);
+}
+
+void Solver::load(Particles particles) {
+  check_shape(particles, capacity_);
+  check_unique(particles.ids);
+  mark_lost(params_, particles);
+  do_load(particles);
+  count_ = particles.size();
+  positions_ = {};
+  report_ = {};
+  clock_ = {};
+  clock_.rained.assign(scene_.rains.size(), 0);
+  clock_.max_speed = largest_speed(particles);
+  for (const auto id : particles.ids) clock_.next_id = std::max(clock_.next_id, id + 1);
+}
+
+void Solver::append(Particles particles) {
+  check_shape(particles, capacity_ - count_);
+  mark_lost(params_, particles);
+  const double time = static_cast<double>(clock_.frame) / scene_.time.frame_rate_hz;
+  Eigen::Vector3d half_kick = scene_.gravity_m_s2 * (0.5 * clock_.previous_dt);
+  half_kick -= container_velocity(scene_, time) - container_velocity(scene_, time - 0.5 * clock_.previous_dt);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles.ids[i] = clock_.next_id++;
+    if (!is_lost(particles.positions[i].x())) particles.velocities[i] -= half_kick;
+  }
+  append_ready(particles);
+}
+
+void Solver::append_ready(const Particles& particles) {
+  if (particles.size() == 0) return;
+  positions_ = {};
+  do_append(particles);
+  count_ += particles.size();
+  clock_.max_speed = std::max(clock_.max_speed, largest_speed(particles));
+}
+
+const FrameReport& Solver::advance(Delivery delivery) {
+  const auto start = SteadyClock::now();
+  positions_ = {};
+  report_ = {};
+  Clock next = clock_;
+  const Particles drops = release_drops(scene_, settings_.seed, next);
+  check_shape(drops, capacity_ - count_);
+  clock_ = next;
+  append_ready(drops);
+  report_.upload_ms = milliseconds_since(start);
+
+  const FramePlan plan = plan_frame(scene_, settings_, clock_);
+  do_advance(plan, delivery, report_);
+  if (delivery == Delivery::positions) positions_ = do_positions();
+  report_.frame_ms = milliseconds_since(start);
+
+  finish_report(plan);
+  clock_.frame += 1;
+  clock_.previous_substeps = report_.substeps;
+  clock_.previous_dt = plan.dt;
+  clock_.max_speed = report_.max_speed;
+  clock_.max_acceleration = report_.max_acceleration;
+  return report_;
+}
+
+void Solver::finish_report(const FramePlan& plan) {
+  report_.frame = plan.frame;
+  report_.substeps = static_cast<int>(plan.substeps.size());
+  report_.dt_s = plan.dt;
+  report_.compute_ms = report_.frame_ms - report_.upload_ms - report_.readback_ms;
+  report_.particles = static_cast<std::int64_t>(count_);
+  report_.time_step_limited = plan.limited;
+  report_.container_displacement =
+      container_displacement(scene_, static_cast<double>(plan.frame + 1) / scene_.time.frame_rate_hz);
+}
+
+State Solver::state() { return {do_download(), clock_}; }
+
+void Solver::restore(const State& state) {
+  check_shape(state.particles, capacity_);
+  check_unique(state.particles.ids);
+  if (state.clock.rained.size() != scene_.rains.size())
+    throw InputError("the state has " + std::to_string(state.clock.rained.size()) + " rains and the scene " +
+                     std::to_string(scene_.rains.size()) + "; restore it into the scene it was saved from");
+  Particles particles = state.particles;
+  mark_lost(params_, particles);
+  do_load(particles);
+  count_ = particles.size();
+  clock_ = state.clock;
+  report_ = {};
+  positions_ = {};
+}
+
+}  // namespace squall

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "core/errors.h"
+#include "core/frame_plan.h"
+#include "core/frame_report.h"
+#include "core/particles.h"
+#include "core/scene.h"
+#include "core/settings.h"
+
+namespace squall {
+
+/// What the caller wants to read after a frame.
+enum class Delivery { nothing, positions };
+
+/// Positions where they lie: particle i has x, y, z at data[i * stride] onwards, in m, relative to the container's min
+/// corner. The last `lost` of the report are the lost ones. Valid until the next call on the solver.
+struct PositionsView {
+  const float* data = nullptr;
+  std::size_t stride = 4;  ///< in floats
+  std::size_t count = 0;
+};
+
+/// Everything that continues a run: load then run equals run, bit for bit, on every backend.
+struct State {
+  Particles particles;
+  Clock clock;
+};
+
+/// What runs the solver: for reports and tables.
+struct SolverInfo {
+  std::string backend;  ///< "reference", "omp" or "opencl"
+  std::string device;   ///< name of the processor or device
+  std::string simd;     ///< "scalar", "avx2", "avx512"; empty where it does not apply
+  int threads = 1;      ///< threads or compute units used; 0 if the device does not say
+  double setup_ms = 0;  ///< building kernels and the like, not part of any frame
+};
+
+/// One solver for one scene.
+///
+/// The rule about blocking: every call returns when its effect is complete; nothing is in flight between calls.
+/// Input is checked here, once, for every backend. A solver is used by one thread at a time; different solvers are
+/// independent of each other.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  const Scene& scene() const { return scene_; }
+  const Settings& settings() const { return settings_; }
+  const Clock& clock() const { return clock_; }
+  virtual SolverInfo info() const = 0;
+
+  /// Starts over from these particles at frame 0. Not finite or far away ones are lost (and counted), whatever the
+  /// backend. Throws InputError for arrays of different length, a repeated id, or more particles than there is room
+  /// for.
+  void load(Particles particles);
+
+  /// Adds particles at the end of the order, between two frames; ids are given by the solver, in this order.
+  /// `velocities` belong to the current time. Throws InputError like load().
+  void append(Particles particles);
+
+  /// One frame: rain, plan, sub-steps, delivery. Throws DeviceError if the device fails.
+  const FrameReport& advance(Delivery delivery = Delivery::positions);
+
+  /// What the last advance() delivered; empty after Delivery::nothing.
+  PositionsView positions() const { return positions_; }
+
+  /// Everything, copied to the host; not timed.
+  State state();
+
+  /// Continues from a state, of this or any other backend.
+  void restore(const State& state);
+
+  const FrameReport& report() const { return report_; }
+
+ protected:
+  Solver(Scene scene, Settings settings);
+
+  const Params<double>& params() const { return params_; }
+  const std::vector<Box<double>>& boxes() const { return boxes_; }
+  const std::vector<HeldGroup>& held_groups() const { return held_groups_; }
+  std::size_t capacity() const { return capacity_; }  ///< particles there must be room for
+
+ private:
+  /// Replaces all particles, keeping their order. At most capacity().
+  virtual void do_load(const Particles& particles) = 0;
+  /// Adds particles behind all others. Sum at most capacity().
+  virtual void do_append(const Particles& particles) = 0;
+  /// Runs the sub-steps of the plan and delivers positions if asked. Fills the report's counts, maxima, statistics,
+  /// phase_ms, readback_bytes, upload_ms and readback_ms.
+  virtual void do_advance(const FramePlan& plan, Delivery delivery, FrameReport& report) = 0;
+  /// Where the last do_advance delivered to.
+  virtual PositionsView do_positions() = 0;
+  /// All particles in their current order.
+  virtual Particles do_download() = 0;
+
+  void append_ready(const Particles& particles);
+  void finish_report(const FramePlan& plan);
+
+  Scene scene_;
+  Settings settings_;
+  Params<double> params_;
+  std::vector<Box<double>> boxes_;
+  std::vector<HeldGroup> held_groups_;
+  std::size_t capacity_ = 0;
+  std::size_t count_ = 0;
+  Clock clock_;
+  FrameReport report_;
+  PositionsView positions_;
+};
+
+}  // namespace squall

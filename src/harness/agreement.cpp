@@ -1,0 +1,136 @@
+#include "harness/agreement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace squall::harness {
+
+namespace {
+
+std::vector<std::size_t> order_by_id(const Particles& particles) {
+  std::vector<std::size_t> order(particles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return particles.ids[a] < particles.ids[b]; });
+  return order;
+}
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+/// Distance, infinite for a value that is no number: NaN would lose every comparison.
+double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double length = (a - b).norm();
+  return std::isfinite(length) ? length : k_infinity;
+}
+
+class Differences {
+ public:
+  explicit Differences(double spacing) : spacing_(spacing) {}
+  void only_in_one(std::uint32_t id) { note(id, k_infinity, k_infinity); }
+  void in_both(const Particles& a, std::size_t i, const Particles& b, std::size_t j) {
+    if (a.positions[i] == b.positions[j] && a.velocities[i] == b.velocities[j]) return;
+    note(a.ids[i], distance(a.positions[i], b.positions[j]) / spacing_, distance(a.velocities[i], b.velocities[j]));
+  }
+  const std::optional<Difference>& result() const { return result_; }
+
+ private:
+  void note(std::uint32_t id, double position_dx, double velocity) {
+    if (!result_) result_ = Difference{id, 0.0, 0.0};
+    result_->max_position_error_dx = std::max(result_->max_position_error_dx, position_dx);
+    result_->max_velocity_error = std::max(result_->max_velocity_error, velocity);
+  }
+  double spacing_;
+  std::optional<Difference> result_;
+};
+
+bool is_strict(const Run& run) {
+  return run.plan().strict && run.plan().settings.precision == Precision::single_precision;
+}
+
+}  // namespace
+
+std::optional<Difference> difference_between(const Particles& a, const Particles& b, double spacing) {
+  const auto order_a = order_by_id(a), order_b = order_by_id(b);
+  Differences differences(spacing);
+  std::size_t i = 0, j = 0;
+  while (i < order_a.size() || j < order_b.size()) {
+    if (j == order_b.size() || (i < order_a.size() && a.ids[order_a[i]] < b.ids[order_b[j]]))
+      differences.only_in_one(a.ids[order_a[i++]]);
+    else if (i == order_a.size() || b.ids[order_b[j]] < a.ids[order_a[i]])
+      differences.only_in_one(b.ids[order_b[j++]]);
+    else
+      differences.in_both(a, order_a[i++], b, order_b[j++]);
+  }
+  return differences.result();
+}
+
+double rounding_tolerance_dx(const Scene& scene, int substeps) {
+  constexpr double k_roundings_per_substep = 16.0;
+  const double coordinate_dx = scene.container_size().maxCoeff() / scene.fluid.spacing_m;
+  return k_roundings_per_substep * substeps * std::numeric_limits<float>::epsilon() * coordinate_dx;
+}
+
+void AgreementCheck::after_round(const std::vector<const Run*>& runs) {
+  std::vector<const Run*> strict, tolerant;
+  for (const Run* run : runs) {
+    if (run->plan().backend == "reference" || !run->error().empty()) continue;
+    (is_strict(*run) ? strict : tolerant).push_back(run);
+  }
+  strict_runs_ = std::max(strict_runs_, strict.size());
+  tolerant_runs_ = std::max(tolerant_runs_, tolerant.size());
+  if (strict.size() > 1) compare_bits(strict);
+  if (rounds_ == 0 && !strict.empty())
+    for (const Run* run : tolerant) compare_by_tolerance(*strict.front(), *run);
+  ++rounds_;
+}
+
+void AgreementCheck::compare_bits(const std::vector<const Run*>& strict) {
+  if (!agreement_.bitwise) agreement_.bitwise = true;
+  if (!*agreement_.bitwise) return;
+  const Run& expected = *strict.front();
+  const auto other = std::find_if(strict.begin(), strict.end(),
+                                  [&](const Run* run) { return run->state_hash() != expected.state_hash(); });
+  if (other == strict.end()) return;
+  agreement_.bitwise = agreement_.agree = false;
+  agreement_.first_difference_frame = expected.state().clock.frame - 1;
+  agreement_.difference =
+      difference_between(expected.state().particles, (*other)->state().particles, expected.scene().fluid.spacing_m);
+  first_label_ = expected.plan().label;
+  second_label_ = (*other)->plan().label;
+}
+
+void AgreementCheck::compare_by_tolerance(const Run& expected, const Run& run) {
+  const double spacing = expected.scene().fluid.spacing_m;
+  const auto difference = difference_between(expected.state().particles, run.state().particles, spacing);
+  const double tolerance =
+      rounding_tolerance_dx(expected.scene(), std::max(1, expected.state().clock.previous_substeps));
+  if (!difference || difference->max_position_error_dx <= tolerance) return;
+  agreement_.agree = false;
+  out_of_tolerance_ +=
+      fmt::format("; {} is {:.3g} dx away from {} after the first frame, {:.3g} dx allowed", run.plan().label,
+                  difference->max_position_error_dx, expected.plan().label, tolerance);
+}
+
+Agreement AgreementCheck::result() const {
+  Agreement result = agreement_;
+  if (!result.bitwise) {
+    result.verdict = "nothing to compare bit by bit: fewer than two strict single-precision runs";
+  } else if (*result.bitwise) {
+    result.verdict = fmt::format("same bits in {} runs after each of {} frames", strict_runs_, rounds_);
+  } else {
+    result.verdict = fmt::format("{} and {} differ first after frame {}", first_label_, second_label_,
+                                 *result.first_difference_frame);
+    if (result.difference)
+      result.verdict += fmt::format(", particle {}: up to {:.3g} dx and {:.3g} m/s", result.difference->particle,
+                                    result.difference->max_position_error_dx, result.difference->max_velocity_error);
+  }
+  result.verdict += out_of_tolerance_;
+  if (tolerant_runs_ > 0 && strict_runs_ > 0 && out_of_tolerance_.empty())
+    result.verdict += fmt::format("; {} run(s) within tolerance after the first frame", tolerant_runs_);
+  return result;
+}
+
+}  // namespace squall::harness

@@ -1,0 +1,133 @@
+#include "harness/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <utility>
+
+#include "core/state_hash.h"
+#include "harness/measures.h"
+
+namespace squall::harness {
+
+namespace {
+
+/// Processor time of all threads [ms].
+double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+Delivery delivery_of(const Settings& settings) {
+  return settings.readback == Readback::none ? Delivery::nothing : Delivery::positions;
+}
+
+void check_plan(const RunPlan& plan) {
+  if (plan.frames < 1)
+    throw InputError("a run of " + std::to_string(plan.frames) + " frames measures nothing; at least 1 is needed");
+  if (plan.warm_up_frames < 0)
+    throw InputError("warm-up of " + std::to_string(plan.warm_up_frames) + " frames; it cannot be negative");
+}
+
+}  // namespace
+
+Run::Run(std::unique_ptr<Solver> solver, RunPlan plan) : solver_(std::move(solver)), plan_(std::move(plan)) {
+  check_plan(plan_);
+  start_ = solver_->state();
+  state_ = start_;
+  energy_in_ = total_energy(scene(), start_.particles);
+}
+
+bool Run::done() const { return !error_.empty() || steps_done_ >= steps_planned(); }
+
+void Run::step() {
+  if (done()) return;
+  try {
+    if (plan_.rewind && plan_.warm_up_frames > 0 && steps_done_ == plan_.warm_up_frames) rewind();
+    advance();
+  } catch (const DeviceError& failure) {
+    error_ = failure.what();
+    device_failed_ = true;
+  }
+}
+
+void Run::rewind() {
+  solver_->restore(start_);
+  state_ = start_;
+  energy_in_ = total_energy(scene(), start_.particles);
+}
+
+void Run::advance() {
+  const double cpu_before = processor_ms();
+  const FrameReport report = solver_->advance(delivery_of(plan_.settings));
+  const double cpu_ms = processor_ms() - cpu_before;
+  take_state();
+  ++steps_done_;
+  if (steps_done_ > plan_.warm_up_frames) {
+    const double time_s = static_cast<double>(state_.clock.frame) / scene().time.frame_rate_hz;
+    frames_.push_back({time_s, report, cpu_ms, state_hash_});
+  }
+  check_end_state(report);
+}
+
+void Run::take_state() {
+  const std::uint32_t first_new = state_.clock.next_id;
+  state_ = solver_->state();
+  state_hash_ = squall::state_hash(state_.particles, plan_.settings.precision);
+  if (state_.clock.next_id > first_new) energy_in_ += total_energy(scene(), state_.particles, first_new);
+}
+
+void Run::check_end_state(const FrameReport& report) {
+  const auto count = static_cast<std::int64_t>(state_.particles.size());
+  if (!is_finite(state_.particles))
+    error_ = "a position or velocity is not finite";
+  else if (report.lost > 0)
+    error_ = std::to_string(report.lost) + " of " + std::to_string(count) + " particles are lost";
+  else if (report.particles != count)
+    error_ = "the report counts " + std::to_string(report.particles) + " particles, the state " + std::to_string(count);
+  else if (report.time_step_limited)
+    error_ = "unstable: a frame needs more than " + std::to_string(k_max_substeps) + " sub-steps at speeds up to " +
+             std::to_string(report.max_speed) + " m/s; raise dt_max_s or frame_rate_hz";
+  if (!error_.empty()) error_ += " after frame " + std::to_string(state_.clock.frame);
+}
+
+Row Run::row() const {
+  Row row;
+  row.plan = plan_;
+  row.solver = solver_->info();
+  row.error = error_;
+  row.device_failed = device_failed_;
+  row.particles = static_cast<std::int64_t>(state_.particles.size());
+  row.lost_particles = solver_->report().lost;
+  row.state_hash = state_hash_;
+  summarise(frames_, 1.0 / scene().time.frame_rate_hz, row);
+  const double energy = total_energy(scene(), state_.particles);
+  if (energy_in_ != 0.0 && error_.empty()) row.energy_drift = (energy - energy_in_) / std::abs(energy_in_);
+  return row;
+}
+
+Row run_once(std::unique_ptr<Solver> solver, const RunPlan& plan, const AfterFrame& after_frame) {
+  Run run(std::move(solver), plan);
+  while (!run.done()) {
+    run.step();
+    if (after_frame && !after_frame(run)) break;
+  }
+  return run.row();
+}
+
+std::map<std::string, double> profile_phases(const SolverFactory& make, RunPlan plan, const State& state) {
+  if (plan.backend == "reference") return {};
+  constexpr int k_frames = 4;
+  const int frames = std::min(k_frames, plan.frames);
+  plan.settings.profile = true;
+  std::map<std::string, double> sums;
+  try {
+    const auto solver = make(plan);
+    solver->restore(state);
+    solver->advance(delivery_of(plan.settings));
+    for (int frame = 0; frame < frames; ++frame)
+      for (const auto& [phase, ms] : solver->advance(delivery_of(plan.settings)).phase_ms) sums[phase] += ms / frames;
+  } catch (const DeviceError&) {
+    return {};
+  }
+  return sums;
+}
+
+}  // namespace squall::harness
