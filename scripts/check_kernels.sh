@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks every kernels/*.cl with clang as OpenCL C 1.2 for a 64-bit device that need not exist here, for each lane width.
+# Checks every kernels/*.cl with clang as OpenCL C 1.2 for a 64-bit device that need not exist here, for each lane width and
+# pressure solver.
 # A missing compiler is a failure. SQUALL_OPENCL_CLANG names another clang.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -17,9 +18,10 @@ kernels=(kernels/*.cl)
 }
 failed=0
 for kernel in "${kernels[@]}"; do
-  for lanes in 1 8 16; do
+  for switches in "-DSQUALL_LANES="{1,8,16}" -DSQUALL_WCSPH="{0,1}; do
+    # shellcheck disable=SC2086 # several options
     "$clang" -x cl -cl-std=CL1.2 -target spir64 -fsyntax-only -Xclang -finclude-default-header -Ikernels \
-      -Wall -Wextra -Werror -DSQUALL_LANES=$lanes "$kernel" || { echo "$kernel with $lanes lanes: failed" >&2 && failed=1; }
+      -Wall -Wextra -Werror $switches "$kernel" || { echo "$kernel with $switches: failed" >&2 && failed=1; }
   done
 done
 echo "${#kernels[@]} kernels checked with $clang"

@@ -35,7 +35,7 @@ class TimeLimit {
  public:
   explicit TimeLimit(const Options& options) : limited_(!options.frames && !options.seconds) {}
   bool reached(int rounds_done, int warm_up_frames) const {
-    constexpr std::chrono::seconds k_limit{100};
+    constexpr std::chrono::seconds k_limit{90};
     constexpr int k_least_frames = 10;  // fewer have no tails
     return limited_ && rounds_done >= warm_up_frames + k_least_frames && Clock::now() - start_ > k_limit;
   }

@@ -70,7 +70,9 @@ void add_water_options(CLI::App& command, Options& options, Raw& raw) {
 }
 
 void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
-  add(command, "--simd", raw.simd, "omp: scalar, avx2 or avx512; else the widest there is")->type_name("NAME");
+  add(command, "--simd", raw.simd,
+      "scalar, avx2 or avx512: width of omp's vectors (else the widest there is) and of opencl's (else by device)")
+      ->type_name("NAME");
   add(command, "--precision", raw.precision, "reference: single or double (its default); the others are single")
       ->type_name("NAME");
   add(command, "--frames", options.frames, "Frames to measure")->check(CLI::Range(1, 10'000'000))->type_name("N");

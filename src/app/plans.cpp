@@ -65,7 +65,7 @@ RunPlan base_plan(const Options& options, const Workload& workload, const std::s
   plan.settings.seed = options.seed;
   plan.settings.precision = Precision::single_precision;
   if (backend == "reference") plan.settings.precision = options.precision.value_or(Precision::double_precision);
-  if (backend == "omp" && options.simd) plan.settings.simd = *options.simd;
+  if (backend != "reference" && options.simd) plan.settings.simd = *options.simd;
   return plan;
 }
 
@@ -101,8 +101,8 @@ void check_run(const Options& options, const std::string& backend) {
   if (!options.device.empty() && backend != "opencl")
     throw UsageError(fmt::format(
         "--device picks an OpenCL device; {} has none to pick: leave it out or add --backend opencl", backend));
-  if (options.simd && backend != "omp")
-    throw UsageError(fmt::format("--simd belongs to backend omp; {} has no such choice", backend));
+  if (options.simd && backend == "reference")
+    throw UsageError(fmt::format("--simd belongs to the backends omp and opencl; {} has no such choice", backend));
   if (!options.threads.empty() && options.threads.front() != 1 && backend == "reference")
     throw UsageError("backend reference has one thread; leave --threads out or pick another --backend");
   refuse_double(options, backend == "reference");

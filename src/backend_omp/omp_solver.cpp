@@ -28,7 +28,7 @@ Simd choose_simd(Simd wanted) {
   const std::vector<Simd> available = available_simd();
   if (wanted == Simd::best) return available.back();
   if (std::find(available.begin(), available.end(), wanted) == available.end())
-    throw InputError(std::string("this machine cannot run ") + to_string(wanted) + " code; it can run up to " +
+    throw DeviceError(std::string("this machine cannot run ") + to_string(wanted) + " code; it can run up to " +
                      to_string(available.back()));
   return wanted;
 }

@@ -60,8 +60,24 @@ Pages allocate_pages(std::size_t bytes) {
       static_cast<std::byte*>(::operator new[](round_up(at_least_one(bytes), k_page), std::align_val_t{k_page})));
 }
 
+namespace {
+
+/// CPU devices do not vectorise over work-items whose loops differ; GPUs do nothing else.
+int choose_lanes(const Machine& machine, Simd simd) {
+  if (simd == Simd::scalar) return 1;
+  if (simd == Simd::avx2) return 8;
+  if (simd == Simd::avx512) return 16;
+  if (!machine.is_cpu) return 1;
+  return machine.device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16 ? 16 : 8;
+}
+
+}  // namespace
+
 WorkShape make_shape(const Machine& machine, const Layout& layout) {
   WorkShape shape;
+  shape.lanes = choose_lanes(machine, layout.simd);
+  // A few shares of the rows for each processor, to even out what a share costs.
+  shape.parts = 4 * at_least_one(static_cast<std::size_t>(machine.compute_units));
   shape.particles = round_up(at_least_one(layout.capacity), shape.group);
   shape.chunks = shape.ranges = at_least_one(static_cast<std::size_t>(machine.compute_units));
   if (machine.is_cpu) return shape;

@@ -19,6 +19,7 @@ struct Layout {
   bool drag = false;
   bool statistics = false;
   Readback readback = Readback::none;
+  Simd simd = Simd::best;  ///< lanes: scalar 1, avx2 8, avx512 16; best: by the device
 };
 
 /// How work is cut into work-items. Fixed for a run, so that a compiler that specialises kernels by shape meets each
@@ -29,6 +30,8 @@ struct WorkShape {
   std::size_t chunks = 1;  ///< of particles, where order matters
   std::size_t ranges = 1;  ///< of cells
   std::size_t chunk_group = 1;
+  int lanes = 1;          ///< particles per vector: 1 gives every particle a work-item of its own
+  std::size_t parts = 1;  ///< work-items over rows of cells, with more lanes than one
 };
 WorkShape make_shape(const Machine& machine, const Layout& layout);
 

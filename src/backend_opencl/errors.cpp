@@ -15,9 +15,9 @@ struct KnownError {
   const char* cause;
 };
 
-const char* const k_lost = "the device may have been lost, or a kernel ran too long or out of bounds";
-const char* const k_no_room = "not enough memory is free; use fewer particles, or close what else uses the device";
-const char* const k_driver = "the driver refused what the specification allows; another driver version may help";
+constexpr const char* k_lost = "the device may have been lost, or a kernel ran too long or out of bounds";
+constexpr const char* k_no_room = "not enough memory is free; use fewer particles, or close what else uses the device";
+constexpr const char* k_driver = "the driver refused what the specification allows; another driver version may help";
 
 constexpr KnownError k_errors[] = {
     {CL_DEVICE_NOT_FOUND, "CL_DEVICE_NOT_FOUND", "the driver offers no device"},

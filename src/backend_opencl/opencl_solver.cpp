@@ -37,7 +37,9 @@ class OpenclSolver final : public Solver {
     translate_errors(device_name(), [&] { set_up(); });
   }
 
-  SolverInfo info() const override { return {"opencl", machine_.info.name, "", machine_.compute_units, setup_ms_}; }
+  SolverInfo info() const override {
+    return {"opencl", machine_.info.name, lanes_name(), machine_.compute_units, setup_ms_};
+  }
 
  private:
   void do_load(const Particles& particles) override {
@@ -60,6 +62,7 @@ class OpenclSolver final : public Solver {
   }
 
   const std::string& device_name() const { return machine_.info.name; }
+  std::string lanes_name() const { return shape_.lanes == 1 ? "scalar" : "float" + std::to_string(shape_.lanes); }
 
   void set_up();
   void warm_up();
@@ -93,14 +96,16 @@ void OpenclSolver::set_up() {
   layout.drag = !scene().rains.empty();
   layout.statistics = settings().statistics;
   layout.readback = settings().readback;
+  layout.simd = settings().simd;
   shape_ = make_shape(machine_, layout);
   auto needs = memory_needs(layout, shape_);
   for (const auto& need : PositionReader::memory_needs(layout)) needs.push_back(need);
   check_limits(machine_, needs);
 
   const auto begin = SteadyClock::now();
-  const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(),
-                                            build_options(scene(), settings().pressure, machine_.rounds_correctly));
+  const cl::Program program =
+      build_program(machine_.context, machine_.device, embedded_kernels(),
+                    build_options(scene(), settings().pressure, machine_.rounds_correctly, shape_.lanes));
   const bool shared = layout.readback == Readback::mapped && shares_host_memory(machine_, program);
   buffers_ = make_buffers(machine_, layout, shape_, shared);
   sort_.emplace(program, buffers_, shape_);

@@ -4,11 +4,11 @@
 
 namespace squall::opencl {
 
-std::string build_options(const Scene& scene, Pressure pressure, bool rounds_correctly) {
+std::string build_options(const Scene& scene, Pressure pressure, bool rounds_correctly, int lanes) {
   const auto flag = [](const char* name, bool value) { return std::string(" -D") + name + (value ? "=1" : "=0"); };
   std::string options = "-cl-std=CL1.2";
   if (rounds_correctly) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  return options + " -DSQUALL_LANES=1" + flag("SQUALL_WCSPH", pressure == Pressure::wcsph) +
+  return options + " -DSQUALL_LANES=" + std::to_string(lanes) + flag("SQUALL_WCSPH", pressure == Pressure::wcsph) +
          flag("SQUALL_VISCOSITY", scene.fluid.viscosity_m2_s.has_value()) + flag("SQUALL_BOXES", !scene.boxes.empty()) +
          flag("SQUALL_DRAG", !scene.rains.empty());
 }
@@ -16,20 +16,39 @@ std::string build_options(const Scene& scene, Pressure pressure, bool rounds_cor
 Passes::Passes(const cl::Program& program, const Buffers& buffers, const WorkShape& shape)
     : ids_{buffers.ids[0], buffers.ids[1]},
       shape_(shape),
+      pass_items_(shape.lanes == 1 ? shape.particles : shape.parts),
+      pass_group_(shape.lanes == 1 ? shape.group : 1),
       release_(program, "release"),
-      density_(program, "density"),
-      density_statistics_(program, "density_statistics"),
-      forces_(program, "forces"),
       summary_(program, "summary") {
+  if (shape.lanes == 1)
+    make_particle_kernels(program, buffers);
+  else
+    make_block_kernels(program, buffers);
   set_arguments(release_, buffers.records, buffers.ids[0], buffers.params, buffers.groups, buffers.substeps, 0, 0);
+  set_arguments(summary_, buffers.records, buffers.densities, buffers.neighbours, buffers.cell_start, buffers.maxima,
+                buffers.clamps, buffers.params, 0, 0, buffers.summaries);
+}
+
+void Passes::make_particle_kernels(const cl::Program& program, const Buffers& buffers) {
+  density_ = cl::Kernel(program, "density");
+  density_statistics_ = cl::Kernel(program, "density_statistics");
+  forces_ = cl::Kernel(program, "forces");
   set_arguments(density_, buffers.sorted, buffers.densities, buffers.isolations, buffers.cell_start, buffers.params,
                 buffers.boxes, buffers.substeps, 0);
   set_arguments(density_statistics_, buffers.sorted, buffers.densities, buffers.isolations, buffers.cell_start,
                 buffers.params, buffers.boxes, buffers.substeps, 0, buffers.neighbours);
   set_arguments(forces_, buffers.sorted, buffers.records, buffers.densities, buffers.isolations, buffers.cell_start,
                 buffers.clamps, buffers.params, buffers.boxes, buffers.substeps, 0, 0);
-  set_arguments(summary_, buffers.records, buffers.densities, buffers.neighbours, buffers.cell_start, buffers.maxima,
-                buffers.clamps, buffers.params, 0, 0, buffers.summaries);
+}
+
+void Passes::make_block_kernels(const cl::Program& program, const Buffers& buffers) {
+  density_ = cl::Kernel(program, "density_blocks");
+  forces_ = cl::Kernel(program, "forces_blocks");
+  set_arguments(density_, buffers.sorted, buffers.densities, buffers.isolations, buffers.neighbours, buffers.cell_start,
+                buffers.params, buffers.boxes, buffers.substeps, 0);
+  set_arguments(forces_, buffers.sorted, buffers.records, buffers.densities, buffers.isolations, buffers.cell_start,
+                buffers.clamps, buffers.params, buffers.boxes, buffers.substeps, 0, 0);
+  density_statistics_ = density_;  // it looks at the table itself
 }
 
 void Passes::enqueue_release(Launcher& launcher, int step, int count, int ids_now) {
@@ -41,14 +60,14 @@ void Passes::enqueue_release(Launcher& launcher, int step, int count, int ids_no
 
 void Passes::enqueue_density(Launcher& launcher, int step, bool statistics) {
   cl::Kernel& kernel = statistics ? density_statistics_ : density_;
-  kernel.setArg(7, step);
-  launcher.run(kernel, shape_.particles, shape_.group, "density");
+  kernel.setArg(shape_.lanes == 1 ? 7 : 8, step);
+  launcher.run(kernel, pass_items_, pass_group_, "density");
 }
 
 void Passes::enqueue_forces(Launcher& launcher, int step, int count) {
   forces_.setArg(9, step);
   forces_.setArg(10, count);
-  launcher.run(forces_, shape_.particles, shape_.group, "forces");
+  launcher.run(forces_, pass_items_, pass_group_, "forces");
 }
 
 void Passes::enqueue_summary(Launcher& launcher, int count, bool statistics) {

@@ -9,7 +9,7 @@
 namespace squall::opencl {
 
 /// Options for the kernels' compiler: switches of the scene and the device; no constants.
-std::string build_options(const Scene& scene, Pressure pressure, bool rounds_correctly);
+std::string build_options(const Scene& scene, Pressure pressure, bool rounds_correctly, int lanes);
 
 /// Everything of a sub-step but the sort, and the summary that ends a frame.
 class Passes {
@@ -25,7 +25,11 @@ class Passes {
 
  private:
   cl::Buffer ids_[2];
+  void make_particle_kernels(const cl::Program& program, const Buffers& buffers);
+  void make_block_kernels(const cl::Program& program, const Buffers& buffers);
+
   WorkShape shape_;
+  std::size_t pass_items_, pass_group_;  ///< of density and forces
   cl::Kernel release_, density_, density_statistics_, forces_, summary_;
 };
 

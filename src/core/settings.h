@@ -13,7 +13,8 @@ enum class Pressure {
 
 enum class Precision { single_precision, double_precision };
 
-/// Instruction set of the omp backend. `best` is the widest the machine has.
+/// Width of vectors: the omp backend's instruction set (best: the widest the machine has), the opencl backend's lanes
+/// (scalar 1, avx2 8, avx512 16; best: by the device).
 enum class Simd { best, scalar, avx2, avx512 };
 
 /// How positions reach the host (docs/architecture.md). Backends in host memory deliver in place, whatever the mode.

@@ -34,7 +34,7 @@ struct State {
 struct SolverInfo {
   std::string backend;  ///< "reference", "omp" or "opencl"
   std::string device;   ///< name of the processor or device
-  std::string simd;     ///< "scalar", "avx2", "avx512"; empty where it does not apply
+  std::string simd;     ///< "scalar", "avx2", "avx512"; OpenCL: "scalar", "float8", "float16"
   int threads = 1;      ///< threads or compute units used; 0 if the device does not say
   double setup_ms = 0;  ///< building kernels and the like, not part of any frame
 };

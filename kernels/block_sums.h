@@ -1,0 +1,128 @@
+/* OpenCL only, for CPU devices: acceleration of a block of particles by pressure, viscosity and walls, without gravity
+   and drag. */
+#ifndef SQUALL_BLOCK_SUMS_H
+#define SQUALL_BLOCK_SUMS_H
+
+#include "blocks.h"
+
+typedef struct {
+  Real x, y, z;
+} Vector;
+
+typedef struct {
+  Real x, y, z, pressure_term, vx, vy, vz, volume_term;
+} Lanes;
+
+static inline Lanes load_block(__global const float* records, const Block* block) {
+  Lanes lanes = {gather(records, block, 0), gather(records, block, 1), gather(records, block, 2),
+                 gather(records, block, 3), gather(records, block, 4), gather(records, block, 5),
+                 gather(records, block, 6), gather(records, block, 7)};
+  return lanes;
+}
+
+static inline void add_scaled(Vector* sum, Real s, Real x, Real y, Real z) {
+  sum->x = fma(s, x, sum->x);
+  sum->y = fma(s, y, sum->y);
+  sum->z = fma(s, z, sum->z);
+}
+
+/* Gradient of the open share, 0 away from walls. */
+static inline Vector opening_slope(__constant Params* p, __constant Box* boxes, int box_count, const Lanes* a) {
+  Vector slope = {(Real)(0), (Real)(0), (Real)(0)};
+#if SQUALL_BOXES
+  if (box_count > 0 || near_container(p, a->x, a->y, a->z))
+#else
+  if (near_container(p, a->x, a->y, a->z))
+#endif
+    force_opening(p, boxes, box_count, a->x, a->y, a->z, &slope.x, &slope.y, &slope.z);
+  return slope;
+}
+
+#if SQUALL_WCSPH
+
+typedef struct {
+  Vector push;
+} PairSums;
+
+static inline void add_pair(__constant Params* p, const Lanes* a, Real pressure, __global const float* b,
+                            PairSums* sums) {
+  Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
+  Real r2 = squared_length(x, y, z);
+  Real r = sqrt(r2);
+  Real slope = cubic_slope(remaining_support(r, (Real)(p->inverse_support)),
+                           remaining_support(r, (Real)(p->inverse_half_support)));
+  Real receding = dot_product(x, y, z, a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
+  Real shear = (Real)(p->artificial_scale) * max0(-receding);
+#if SQUALL_VISCOSITY
+  shear = nfma((Real)(p->viscosity_scale), receding, shear);
+#endif
+  Real s = wcsph_pair(r, r2, slope, a->pressure_term + (Real)(b[3]), a->volume_term + (Real)(b[7]), shear,
+                      (Real)(p->softening), (Real)(p->tiny));
+  add_scaled(&sums->push, s, x, y, z);
+}
+
+static inline Real total(__constant Params* p, const Lanes* a, Real density, Real pressure, Real push, Real slope) {
+  return fma((Real)(p->force_scale), push, a->pressure_term * slope);
+}
+#define SQUALL_TOTAL(axis) total(p, a, density, pressure, sums.push.axis, slope.axis)
+
+#else
+
+typedef struct {
+  Vector push, drag;
+} PairSums;
+
+static inline void add_pair(__constant Params* p, const Lanes* a, Real pressure, __global const float* b,
+                            PairSums* sums) {
+  Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
+  Real r = sqrt(squared_length(x, y, z));
+  Real u = remaining_support(r, (Real)(p->inverse_support));
+  add_scaled(&sums->push, mueller_pair(r, u, pressure, (Real)(b[7]), (Real)(b[3]), (Real)(p->tiny)), x, y, z);
+#if SQUALL_VISCOSITY
+  add_scaled(&sums->drag, viscosity_laplacian(u) * (Real)(b[7]), (Real)(b[4]) - a->vx, (Real)(b[5]) - a->vy,
+             (Real)(b[6]) - a->vz);
+#endif
+}
+
+static inline Real total(__constant Params* p, Real density, Real pressure, Real push, Real drag, Real slope) {
+  Real force = fma((Real)(p->force_scale), push, pressure * slope);
+#if SQUALL_VISCOSITY
+  force = fma((Real)(p->viscosity_scale), drag, force);
+#endif
+  return force / density;
+}
+#define SQUALL_TOTAL(axis) total(p, density, pressure, sums.push.axis, sums.drag.axis, slope.axis)
+
+#endif
+
+static inline Vector fluid_acceleration(__constant Params* p, __constant Box* boxes, int box_count,
+                                        __global const float* records, __global const float* densities,
+                                        __global const int* cell_start, const Block* block, const Lanes* a) {
+  float density_lanes[SQUALL_LANES];
+  for (int lane = 0; lane < SQUALL_LANES; ++lane)
+    density_lanes[lane] = densities[min(block->begin + lane, block->end - 1)];
+  Real density = load_lanes(density_lanes);
+  Real pressure = mueller_pressure(density, (Real)(p->stiffness), (Real)(p->tension));
+  PairSums sums;
+  sums.push.x = sums.push.y = sums.push.z = (Real)(0);
+#if !SQUALL_WCSPH
+  sums.drag = sums.push;
+#endif
+  Walk walk = begin_walk(block);
+  int hits[SQUALL_BATCH + 1];
+  while (has_candidates(p, cell_start, block, &walk)) {
+    int count = 0;
+    int end = min(walk.next + SQUALL_BATCH, walk.end);
+    for (int j = walk.next; j < end; ++j) {
+      hits[count] = j;
+      count += in_reach(p, records, j, a->x, a->y, a->z);
+    }
+    walk.next = end;
+    for (int k = 0; k < count; ++k) add_pair(p, a, pressure, records + 8 * (size_t)hits[k], &sums);
+  }
+  Vector slope = opening_slope(p, boxes, box_count, a);
+  Vector result = {SQUALL_TOTAL(x), SQUALL_TOTAL(y), SQUALL_TOTAL(z)};
+  return result;
+}
+
+#endif

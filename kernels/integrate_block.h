@@ -1,0 +1,103 @@
+/* OpenCL only, for CPU devices: gravity, drag, kick, drift and the safety net of a block of particles. */
+#ifndef SQUALL_INTEGRATE_BLOCK_H
+#define SQUALL_INTEGRATE_BLOCK_H
+
+#include "block_sums.h"
+#include "boundary.h"
+
+/* Adds the drag of lone drops, by the midpoint rule: at the speed half a kick from now. */
+static inline Vector with_drag(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* at,
+                               Vector a, __global const float* isolations) {
+  float lanes[SQUALL_LANES];
+  for (int lane = 0; lane < SQUALL_LANES; ++lane) lanes[lane] = isolations[min(block->begin + lane, block->end - 1)];
+  Real weight = load_lanes(lanes);
+  Real coefficient = (Real)(p->drag_coefficient);
+  Real half_kick = (Real)(now->kick * p->one_half);
+  Vector before = {at->vx - (Real)(now->wind_x), at->vy - (Real)(now->wind_y), at->vz - (Real)(now->wind_z)};
+  Real rate = drag_rate(before.x, before.y, before.z, coefficient, weight);
+  Vector later = {fma(half_kick, fma(rate, before.x, a.x), before.x),
+                  fma(half_kick, fma(rate, before.y, a.y), before.y),
+                  fma(half_kick, fma(rate, before.z, a.z), before.z)};
+  rate = drag_rate(later.x, later.y, later.z, coefficient, weight);
+  Vector result = {fma(rate, later.x, a.x), fma(rate, later.y, a.y), fma(rate, later.z, a.z)};
+  return result;
+}
+
+/* Whether every lane is inside the container by more than the clamp distance; NaN is not. */
+static inline int all_inside(__constant Params* p, Vector x) {
+  Real edge = (Real)(p->clamp_distance);
+  Real top = (Real)(p->lid > 0.0f ? p->size_y - p->clamp_distance : p->size_y + p->lost_distance);
+  Mask inside = (x.x >= edge) & (x.x <= (Real)(p->size_x - p->clamp_distance)) & (x.y >= edge) & (x.y <= top) &
+                (x.z >= edge) & (x.z <= (Real)(p->size_z - p->clamp_distance));
+  return !any_lane(~inside);
+}
+
+/* Puts lane `lane` through keep_inside. */
+static inline int keep_lane_inside(__constant Params* p, __constant Box* boxes, int box_count, int lane,
+                                   const float (*from_lanes)[SQUALL_LANES], float (*to_lanes)[SQUALL_LANES],
+                                   float (*speed_lanes)[SQUALL_LANES]) {
+  float from[3], to[3], speed[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    from[axis] = from_lanes[axis][lane];
+    to[axis] = to_lanes[axis][lane];
+    speed[axis] = speed_lanes[axis][lane];
+  }
+  int event = keep_inside(p, boxes, box_count, from, to, speed);
+  for (int axis = 0; axis < 3; ++axis) {
+    to_lanes[axis][lane] = to[axis];
+    speed_lanes[axis][lane] = speed[axis];
+  }
+  return event;
+}
+
+static inline void integrate_block(__constant Params* p, __constant Box* boxes, __global const Substep* now,
+                                   const Block* block, const Lanes* at, Vector a, __global const float* isolations,
+                                   __global float* records, __global int* clamps) {
+  a.x += (Real)(now->acceleration_x);
+  a.y += (Real)(now->acceleration_y);
+  a.z += (Real)(now->acceleration_z);
+#if SQUALL_DRAG
+  a = with_drag(p, now, block, at, a, isolations);
+#endif
+  Real kick = (Real)(now->kick), dt = (Real)(now->dt);
+  Vector v = {fma(kick, a.x, at->vx), fma(kick, a.y, at->vy), fma(kick, a.z, at->vz)};
+  Vector x = {fma(dt, v.x, at->x), fma(dt, v.y, at->y), fma(dt, v.z, at->z)};
+  float from_lanes[3][SQUALL_LANES], to_lanes[3][SQUALL_LANES], speed_lanes[3][SQUALL_LANES];
+  float acceleration2[SQUALL_LANES];
+  store_lanes(x.x, to_lanes[0]);
+  store_lanes(x.y, to_lanes[1]);
+  store_lanes(x.z, to_lanes[2]);
+  store_lanes(v.x, speed_lanes[0]);
+  store_lanes(v.y, speed_lanes[1]);
+  store_lanes(v.z, speed_lanes[2]);
+  store_lanes(squared_length(a.x, a.y, a.z), acceleration2);
+#if SQUALL_BOXES
+  int box_count = now->box_count;
+#else
+  int box_count = 0;
+#endif
+  int lost[SQUALL_LANES] = {0};
+  if (box_count > 0 || !all_inside(p, x)) {
+    int clamped = 0;
+    store_lanes(at->x, from_lanes[0]);
+    store_lanes(at->y, from_lanes[1]);
+    store_lanes(at->z, from_lanes[2]);
+    for (int lane = 0; lane < block->end - block->begin; ++lane) {
+      int event =
+          keep_lane_inside(p, boxes, box_count, lane, (const float(*)[SQUALL_LANES])from_lanes, to_lanes, speed_lanes);
+      lost[lane] = event & SQUALL_LOST;
+      clamped += (event & SQUALL_CLAMPED) != 0;
+    }
+    if (clamped) atomic_add(clamps, clamped);
+  }
+  for (int i = block->begin; i < block->end; ++i) {
+    int lane = i - block->begin;
+    float vx = speed_lanes[0][lane], vy = speed_lanes[1][lane], vz = speed_lanes[2][lane];
+    float speed2 = fma(vz, vz, fma(vy, vy, vx * vx));
+    float8 record = (float8)(to_lanes[0][lane], to_lanes[1][lane], to_lanes[2][lane], lost[lane] ? 0.0f : speed2, vx,
+                             vy, vz, lost[lane] ? 0.0f : acceleration2[lane]);
+    vstore8(record, i, records);
+  }
+}
+
+#endif
