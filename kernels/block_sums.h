@@ -13,11 +13,15 @@ typedef struct {
   Real x, y, z, pressure_term, vx, vy, vz, volume_term;
 } Lanes;
 
-static inline Lanes load_block(__global const float* records, const Block* block) {
-  Lanes lanes = {gather(records, block, 0), gather(records, block, 1), gather(records, block, 2),
-                 gather(records, block, 3), gather(records, block, 4), gather(records, block, 5),
-                 gather(records, block, 6), gather(records, block, 7)};
-  return lanes;
+static inline void load_block(__global const float* records, const Block* block, Lanes* lanes) {
+  lanes->x = gather(records, block, 0);
+  lanes->y = gather(records, block, 1);
+  lanes->z = gather(records, block, 2);
+  lanes->pressure_term = gather(records, block, 3);
+  lanes->vx = gather(records, block, 4);
+  lanes->vy = gather(records, block, 5);
+  lanes->vz = gather(records, block, 6);
+  lanes->volume_term = gather(records, block, 7);
 }
 
 static inline void add_scaled(Vector* sum, Real s, Real x, Real y, Real z) {
@@ -27,15 +31,15 @@ static inline void add_scaled(Vector* sum, Real s, Real x, Real y, Real z) {
 }
 
 /* Gradient of the open share, 0 away from walls. */
-static inline Vector opening_slope(__constant Params* p, __constant Box* boxes, int box_count, const Lanes* a) {
-  Vector slope = {(Real)(0), (Real)(0), (Real)(0)};
+static inline void opening_slope(__constant Params* p, __constant Box* boxes, int box_count, const Lanes* a,
+                                 Vector* slope) {
+  slope->x = slope->y = slope->z = (Real)(0);
 #if SQUALL_BOXES
   if (box_count > 0 || near_container(p, a->x, a->y, a->z))
 #else
   if (near_container(p, a->x, a->y, a->z))
 #endif
-    force_opening(p, boxes, box_count, a->x, a->y, a->z, &slope.x, &slope.y, &slope.z);
-  return slope;
+    force_opening(p, boxes, box_count, a->x, a->y, a->z, &slope->x, &slope->y, &slope->z);
 }
 
 #if SQUALL_WCSPH
@@ -95,9 +99,10 @@ static inline Real total(__constant Params* p, Real density, Real pressure, Real
 
 #endif
 
-static inline Vector fluid_acceleration(__constant Params* p, __constant Box* boxes, int box_count,
-                                        __global const float* records, __global const float* densities,
-                                        __global const int* cell_start, const Block* block, const Lanes* a) {
+static inline void fluid_acceleration(__constant Params* p, __constant Box* boxes, int box_count,
+                                      __global const float* records, __global const float* densities,
+                                      __global const int* cell_start, const Block* block, const Lanes* a,
+                                      Vector* result) {
   float density_lanes[SQUALL_LANES];
   for (int lane = 0; lane < SQUALL_LANES; ++lane)
     density_lanes[lane] = densities[min(block->begin + lane, block->end - 1)];
@@ -108,7 +113,8 @@ static inline Vector fluid_acceleration(__constant Params* p, __constant Box* bo
 #if !SQUALL_WCSPH
   sums.drag = sums.push;
 #endif
-  Walk walk = begin_walk(block);
+  Walk walk;
+  begin_walk(block, &walk);
   int hits[SQUALL_BATCH + 1];
   while (has_candidates(p, cell_start, block, &walk)) {
     int count = 0;
@@ -120,9 +126,11 @@ static inline Vector fluid_acceleration(__constant Params* p, __constant Box* bo
     walk.next = end;
     for (int k = 0; k < count; ++k) add_pair(p, a, pressure, records + 8 * (size_t)hits[k], &sums);
   }
-  Vector slope = opening_slope(p, boxes, box_count, a);
-  Vector result = {SQUALL_TOTAL(x), SQUALL_TOTAL(y), SQUALL_TOTAL(z)};
-  return result;
+  Vector slope;
+  opening_slope(p, boxes, box_count, a, &slope);
+  result->x = SQUALL_TOTAL(x);
+  result->y = SQUALL_TOTAL(y);
+  result->z = SQUALL_TOTAL(z);
 }
 
 #endif

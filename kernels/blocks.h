@@ -1,6 +1,7 @@
 /* OpenCL only, for CPU devices: blocks of up to SQUALL_LANES consecutive particles of one row of cells, one per lane of
    a vector; a work-item takes a contiguous share of the rows. Candidates are tested a batch at a time, and those within
-   reach of any lane visited: what is further away adds exactly zero. */
+   reach of any lane visited: what is further away adds exactly zero. Structures go through pointers: returned by value
+   they leave marks in the intermediate code that Oclgrind cannot read. */
 #ifndef SQUALL_BLOCKS_H
 #define SQUALL_BLOCKS_H
 
@@ -61,17 +62,16 @@ static inline Real gather(__global const float* records, const Block* block, int
 }
 
 /* The block that starts at `begin` in a row that ends at `row_end`. */
-static inline Block make_block(__constant Params* p, __global const float* records, int row, int begin, int row_end) {
-  Block block;
-  block.begin = begin;
-  block.end = min(begin + SQUALL_LANES, row_end);
-  block.cell_y = row % p->cells_y;
-  block.cell_z = row / p->cells_y;
+static inline void make_block(__constant Params* p, __global const float* records, int row, int begin, int row_end,
+                              Block* block) {
+  block->begin = begin;
+  block->end = min(begin + SQUALL_LANES, row_end);
+  block->cell_y = row % p->cells_y;
+  block->cell_z = row / p->cells_y;
   int low = cell_coordinate(records[8 * (size_t)begin], p->inverse_edge_x, p->cells_x);
-  int high = cell_coordinate(records[8 * (size_t)(block.end - 1)], p->inverse_edge_x, p->cells_x);
-  block.first_x = max(low - SQUALL_X_FINENESS, 0);
-  block.last_x = min(high + SQUALL_X_FINENESS, p->cells_x - 1);
-  return block;
+  int high = cell_coordinate(records[8 * (size_t)(block->end - 1)], p->inverse_edge_x, p->cells_x);
+  block->first_x = max(low - SQUALL_X_FINENESS, 0);
+  block->last_x = min(high + SQUALL_X_FINENESS, p->cells_x - 1);
 }
 
 /* The candidates of a block, batch by batch, in canonical order. */
@@ -80,9 +80,10 @@ typedef struct {
   int next, end; /* what is left of the current one */
 } Walk;
 
-static inline Walk begin_walk(const Block* block) {
-  Walk walk = {block->cell_y - 1, block->cell_z - 1, 0, 0};
-  return walk;
+static inline void begin_walk(const Block* block, Walk* walk) {
+  walk->y = block->cell_y - 1;
+  walk->z = block->cell_z - 1;
+  walk->next = walk->end = 0;
 }
 
 /* Moves to the next row that has candidates left; 0 when there is none. */

@@ -27,10 +27,12 @@ static inline Real kernel_value(__constant Params* p, __global const float* at, 
   return value;
 }
 
-static inline KernelSum sum_kernel(__constant Params* p, __global const float* records, __global const int* cell_start,
-                                   const Block* block, Real x, Real y, Real z, int statistics) {
-  KernelSum sum = {(Real)(0), (Real)(0), (Mask)(0)};
-  Walk walk = begin_walk(block);
+static inline void sum_kernel(__constant Params* p, __global const float* records, __global const int* cell_start,
+                              const Block* block, Real x, Real y, Real z, int statistics, KernelSum* sum) {
+  sum->even = sum->odd = (Real)(0);
+  sum->neighbours = (Mask)(0);
+  Walk walk;
+  begin_walk(block, &walk);
   int even[SQUALL_BATCH + 1], odd[SQUALL_BATCH + 1];
   while (has_candidates(p, cell_start, block, &walk)) {
     int evens = 0, odds = 0;
@@ -44,18 +46,18 @@ static inline KernelSum sum_kernel(__constant Params* p, __global const float* r
     }
     walk.next = end;
     for (int k = 0; k < evens; ++k)
-      sum.even += kernel_value(p, records + 8 * (size_t)even[k], x, y, z, statistics, &sum.neighbours);
+      sum->even += kernel_value(p, records + 8 * (size_t)even[k], x, y, z, statistics, &sum->neighbours);
     for (int k = 0; k < odds; ++k)
-      sum.odd += kernel_value(p, records + 8 * (size_t)odd[k], x, y, z, statistics, &sum.neighbours);
+      sum->odd += kernel_value(p, records + 8 * (size_t)odd[k], x, y, z, statistics, &sum->neighbours);
   }
-  return sum;
 }
 
 static inline void density_of_block(__global float* records, __global float* densities, __global float* isolations,
                                     __global int* neighbours, __global const int* cell_start, __constant Params* p,
                                     __constant Box* boxes, __global const Substep* now, const Block* block) {
   Real x = gather(records, block, 0), y = gather(records, block, 1), z = gather(records, block, 2);
-  KernelSum sum = sum_kernel(p, records, cell_start, block, x, y, z, now->statistics);
+  KernelSum sum;
+  sum_kernel(p, records, cell_start, block, x, y, z, now->statistics, &sum);
   Real kernel_sum = sum.even + sum.odd;
   Real share = (Real)(0);
 #if SQUALL_BOXES
@@ -103,7 +105,8 @@ __kernel void density_blocks(__global float* records, __global float* densities,
   for (int row = row_split(p, cell_start, part, parts); row < end_row; ++row) {
     int row_end = cell_start[(row + 1) * p->cells_x];
     for (int begin = cell_start[row * p->cells_x]; begin < row_end; begin += SQUALL_LANES) {
-      Block block = make_block(p, records, row, begin, row_end);
+      Block block;
+      make_block(p, records, row, begin, row_end, &block);
       density_of_block(records, densities, isolations, neighbours, cell_start, p, boxes, substeps + step, &block);
     }
   }

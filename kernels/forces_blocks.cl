@@ -18,10 +18,13 @@ __kernel void forces_blocks(__global const float* sorted, __global float* record
   for (int row = row_split(p, cell_start, part, parts); row < end_row; ++row) {
     int row_end = cell_start[(row + 1) * p->cells_x];
     for (int begin = cell_start[row * p->cells_x]; begin < row_end; begin += SQUALL_LANES) {
-      Block block = make_block(p, sorted, row, begin, row_end);
-      Lanes lanes = load_block(sorted, &block);
-      Vector a = fluid_acceleration(p, boxes, now->box_count, sorted, densities, cell_start, &block, &lanes);
-      integrate_block(p, boxes, now, &block, &lanes, a, isolations, records, clamps);
+      Block block;
+      Lanes lanes;
+      Vector a;
+      make_block(p, sorted, row, begin, row_end, &block);
+      load_block(sorted, &block, &lanes);
+      fluid_acceleration(p, boxes, now->box_count, sorted, densities, cell_start, &block, &lanes, &a);
+      integrate_block(p, boxes, now, &block, &lanes, &a, isolations, records, clamps);
     }
   }
   if (part != parts - 1) return;

@@ -6,29 +6,30 @@
 #include "boundary.h"
 
 /* Adds the drag of lone drops, by the midpoint rule: at the speed half a kick from now. */
-static inline Vector with_drag(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* at,
-                               Vector a, __global const float* isolations) {
+static inline void add_drag(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* at,
+                            __global const float* isolations, Vector* a) {
   float lanes[SQUALL_LANES];
   for (int lane = 0; lane < SQUALL_LANES; ++lane) lanes[lane] = isolations[min(block->begin + lane, block->end - 1)];
   Real weight = load_lanes(lanes);
   Real coefficient = (Real)(p->drag_coefficient);
   Real half_kick = (Real)(now->kick * p->one_half);
-  Vector before = {at->vx - (Real)(now->wind_x), at->vy - (Real)(now->wind_y), at->vz - (Real)(now->wind_z)};
-  Real rate = drag_rate(before.x, before.y, before.z, coefficient, weight);
-  Vector later = {fma(half_kick, fma(rate, before.x, a.x), before.x),
-                  fma(half_kick, fma(rate, before.y, a.y), before.y),
-                  fma(half_kick, fma(rate, before.z, a.z), before.z)};
-  rate = drag_rate(later.x, later.y, later.z, coefficient, weight);
-  Vector result = {fma(rate, later.x, a.x), fma(rate, later.y, a.y), fma(rate, later.z, a.z)};
-  return result;
+  Real x = at->vx - (Real)(now->wind_x), y = at->vy - (Real)(now->wind_y), z = at->vz - (Real)(now->wind_z);
+  Real rate = drag_rate(x, y, z, coefficient, weight);
+  x = fma(half_kick, fma(rate, x, a->x), x);
+  y = fma(half_kick, fma(rate, y, a->y), y);
+  z = fma(half_kick, fma(rate, z, a->z), z);
+  rate = drag_rate(x, y, z, coefficient, weight);
+  a->x = fma(rate, x, a->x);
+  a->y = fma(rate, y, a->y);
+  a->z = fma(rate, z, a->z);
 }
 
 /* Whether every lane is inside the container by more than the clamp distance; NaN is not. */
-static inline int all_inside(__constant Params* p, Vector x) {
+static inline int all_inside(__constant Params* p, const Vector* x) {
   Real edge = (Real)(p->clamp_distance);
   Real top = (Real)(p->lid > 0.0f ? p->size_y - p->clamp_distance : p->size_y + p->lost_distance);
-  Mask inside = (x.x >= edge) & (x.x <= (Real)(p->size_x - p->clamp_distance)) & (x.y >= edge) & (x.y <= top) &
-                (x.z >= edge) & (x.z <= (Real)(p->size_z - p->clamp_distance));
+  Mask inside = (x->x >= edge) & (x->x <= (Real)(p->size_x - p->clamp_distance)) & (x->y >= edge) & (x->y <= top) &
+                (x->z >= edge) & (x->z <= (Real)(p->size_z - p->clamp_distance));
   return !any_lane(~inside);
 }
 
@@ -51,16 +52,16 @@ static inline int keep_lane_inside(__constant Params* p, __constant Box* boxes, 
 }
 
 static inline void integrate_block(__constant Params* p, __constant Box* boxes, __global const Substep* now,
-                                   const Block* block, const Lanes* at, Vector a, __global const float* isolations,
+                                   const Block* block, const Lanes* at, Vector* a, __global const float* isolations,
                                    __global float* records, __global int* clamps) {
-  a.x += (Real)(now->acceleration_x);
-  a.y += (Real)(now->acceleration_y);
-  a.z += (Real)(now->acceleration_z);
+  a->x += (Real)(now->acceleration_x);
+  a->y += (Real)(now->acceleration_y);
+  a->z += (Real)(now->acceleration_z);
 #if SQUALL_DRAG
-  a = with_drag(p, now, block, at, a, isolations);
+  add_drag(p, now, block, at, isolations, a);
 #endif
   Real kick = (Real)(now->kick), dt = (Real)(now->dt);
-  Vector v = {fma(kick, a.x, at->vx), fma(kick, a.y, at->vy), fma(kick, a.z, at->vz)};
+  Vector v = {fma(kick, a->x, at->vx), fma(kick, a->y, at->vy), fma(kick, a->z, at->vz)};
   Vector x = {fma(dt, v.x, at->x), fma(dt, v.y, at->y), fma(dt, v.z, at->z)};
   float from_lanes[3][SQUALL_LANES], to_lanes[3][SQUALL_LANES], speed_lanes[3][SQUALL_LANES];
   float acceleration2[SQUALL_LANES];
@@ -70,14 +71,14 @@ static inline void integrate_block(__constant Params* p, __constant Box* boxes, 
   store_lanes(v.x, speed_lanes[0]);
   store_lanes(v.y, speed_lanes[1]);
   store_lanes(v.z, speed_lanes[2]);
-  store_lanes(squared_length(a.x, a.y, a.z), acceleration2);
+  store_lanes(squared_length(a->x, a->y, a->z), acceleration2);
 #if SQUALL_BOXES
   int box_count = now->box_count;
 #else
   int box_count = 0;
 #endif
   int lost[SQUALL_LANES] = {0};
-  if (box_count > 0 || !all_inside(p, x)) {
+  if (box_count > 0 || !all_inside(p, &x)) {
     int clamped = 0;
     store_lanes(at->x, from_lanes[0]);
     store_lanes(at->y, from_lanes[1]);

@@ -13,11 +13,11 @@ command -v oclgrind >/dev/null || {
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
-check() {  # check SCENE OPTION...
-  local scene=$1
-  shift
+check() {  # check SCENE SIMD OPTION...: kernels of one width
+  local scene=$1 simd=$2
+  shift 2
   oclgrind --log "$out/log" --build-options -O1 --max-errors 20 "$@" \
-    "$squall" run "$scene" --backend opencl --frames 2 --quiet --json "$out/run.json"
+    "$squall" run "$scene" --backend opencl --simd "$simd" --frames 2 --quiet --json "$out/run.json"
   python3 - "$out/run.json" <<'PYTHON'
 import json, sys
 run = json.load(open(sys.argv[1]))["runs"][0]
@@ -32,6 +32,8 @@ PYTHON
 }
 
 sed '/^\[\[rain\]\]/,$d' "$scene" >"$out/dry.toml"
-check "$scene" --data-races
-check "$out/dry.toml" --data-races --uninitialized
+for simd in scalar avx2; do # a work-item per particle; blocks of eight
+  check "$scene" "$simd" --data-races
+  check "$out/dry.toml" "$simd" --data-races --uninitialized
+done
 echo "oclgrind found nothing"

@@ -23,8 +23,9 @@ is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" 
 install_packages() {
   local package
   local missing=()
-  type -P apt-get dpkg-query >/dev/null || fail "this script installs packages with apt-get (Debian 12), which is not here. Install the likes of: $*;" \
-    "then: cmake --preset release && cmake --build build/release"
+  type -P apt-get dpkg-query >/dev/null ||
+    fail "this script installs packages with apt-get (Debian 12), which is not here. Install the likes of: $*;" \
+      "then: cmake --preset release && cmake --build build/release"
   for package in "$@"; do
     is_installed "$package" || missing+=("$package")
   done
@@ -39,7 +40,7 @@ install_packages() {
   say "installing ${missing[*]}"
   # One unreachable extra source must not stop what the others can give; the installation decides.
   "${as_root[@]}" apt-get update -qq || say "apt-get update failed; trying with the package lists that are here"
-  "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2 ||
+  "${as_root[@]}" apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}" >&2 ||
     fail "apt-get could not install: ${missing[*]} (no network, or not Debian 12?)"
 }
 
@@ -53,6 +54,12 @@ build_jobs() {
   [ "$jobs" -ge 1 ] || jobs=1
   echo "$jobs"
 }
+
+# PoCL keeps the kernels it has built below HOME, and offers no device where it cannot.
+if [ ! -w "${HOME:-/nowhere}" ]; then
+  export POCL_CACHE_DIR=${POCL_CACHE_DIR:-$PWD/build/pocl-cache}
+  mkdir -p "$POCL_CACHE_DIR"
+fi
 
 # Configures the release preset with the options given and builds it.
 build_release() {

@@ -15,7 +15,10 @@ namespace {
 harness::Context context_of(const std::vector<BackendInfo>& backends, const std::vector<harness::Row>& rows) {
   harness::Context context = harness::collect_context();
   for (const auto& row : rows)
-    if (row.plan.backend == "opencl" && !context.opencl) context.opencl = device_of(row.plan, backends);
+    if (row.plan.backend == "opencl" && !context.opencl) {
+      context.opencl = device_of(row.plan, backends);
+      context.opencl_build_options = row.solver.build_options;
+    }
   return context;
 }
 

@@ -69,7 +69,7 @@ class OmpSolver final : public Solver {
     resize(0);
   }
 
-  SolverInfo info() const override { return {"omp", processor_name(), to_string(simd_), threads_, 0.0}; }
+  SolverInfo info() const override { return {"omp", processor_name(), to_string(simd_), threads_, "", 0.0}; }
 
  private:
   void do_load(const Particles& particles) override {

@@ -38,7 +38,7 @@ class OpenclSolver final : public Solver {
   }
 
   SolverInfo info() const override {
-    return {"opencl", machine_.info.name, lanes_name(), machine_.compute_units, setup_ms_};
+    return {"opencl", machine_.info.name, lanes_name(), machine_.compute_units, options_, setup_ms_};
   }
 
  private:
@@ -85,6 +85,7 @@ class OpenclSolver final : public Solver {
   int count_ = 0;
   int ids_now_ = 0;  ///< which of the two id buffers is current
   double setup_ms_ = 0.0;
+  std::string options_;  ///< of the kernels
 };
 
 void OpenclSolver::set_up() {
@@ -103,9 +104,8 @@ void OpenclSolver::set_up() {
   check_limits(machine_, needs);
 
   const auto begin = SteadyClock::now();
-  const cl::Program program =
-      build_program(machine_.context, machine_.device, embedded_kernels(),
-                    build_options(scene(), settings().pressure, machine_.rounds_correctly, shape_.lanes));
+  options_ = build_options(scene(), settings().pressure, machine_.rounds_correctly, shape_.lanes);
+  const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(), options_);
   const bool shared = layout.readback == Readback::mapped && shares_host_memory(machine_, program);
   buffers_ = make_buffers(machine_, layout, shape_, shared);
   sort_.emplace(program, buffers_, shape_);

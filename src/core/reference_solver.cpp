@@ -31,7 +31,7 @@ class ReferenceSolver final : public Solver {
     for (const auto& box : boxes()) boxes_single_.push_back(cast<Scalar, Box>(box));
   }
 
-  SolverInfo info() const override { return {"reference", "one thread", "", 1, 0.0}; }
+  SolverInfo info() const override { return {"reference", "one thread", "", 1, "", 0.0}; }
 
  private:
   void do_load(const Particles& particles) override {

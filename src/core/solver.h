@@ -32,11 +32,12 @@ struct State {
 
 /// What runs the solver: for reports and tables.
 struct SolverInfo {
-  std::string backend;  ///< "reference", "omp" or "opencl"
-  std::string device;   ///< name of the processor or device
-  std::string simd;     ///< "scalar", "avx2", "avx512"; OpenCL: "scalar", "float8", "float16"
-  int threads = 1;      ///< threads or compute units used; 0 if the device does not say
-  double setup_ms = 0;  ///< building kernels and the like, not part of any frame
+  std::string backend;             ///< "reference", "omp" or "opencl"
+  std::string device;              ///< name of the processor or device
+  std::string simd;                ///< "scalar", "avx2", "avx512"; OpenCL: "scalar", "float8", "float16"
+  int threads = 1;                 ///< threads or compute units used; 0 if the device does not say
+  std::string build_options = {};  ///< what kernels were compiled with at run time; empty where nothing is
+  double setup_ms = 0;             ///< building kernels and the like, not part of any frame
 };
 
 /// One solver for one scene.

@@ -19,6 +19,7 @@ struct Context {
   std::string compiler;
   std::string flags;
   std::optional<DeviceInfo> opencl;  ///< the first OpenCL device that took part
+  std::string opencl_build_options;  ///< of its kernels
 };
 
 /// Asks the build and the machine. Unknown texts are empty.

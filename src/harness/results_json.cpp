@@ -130,7 +130,8 @@ Json to_json(const Context& context) {
     json["opencl"] = {{"platform", device->platform},
                       {"device", device->name},
                       {"driver", device->driver},
-                      {"version", device->version}};
+                      {"version", device->version},
+                      {"build_options", context.opencl_build_options}};
   return json;
 }
 
