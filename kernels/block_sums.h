@@ -11,6 +11,9 @@ typedef struct {
 
 typedef struct {
   Real x, y, z, pressure_term, vx, vy, vz, volume_term;
+#if !SQUALL_WCSPH
+  Real density, pressure;
+#endif
 } Lanes;
 
 static inline void load_block(__global const float* records, const Block* block, Lanes* lanes) {
@@ -23,6 +26,14 @@ static inline void load_block(__global const float* records, const Block* block,
   lanes->vz = gather(records, block, 6);
   lanes->volume_term = gather(records, block, 7);
 }
+
+#if !SQUALL_WCSPH
+static inline void load_pressure(__constant Params* p, __global const float* densities, const Block* block,
+                                 Lanes* lanes) {
+  lanes->density = gather_value(densities, block);
+  lanes->pressure = mueller_pressure(lanes->density, (Real)(p->stiffness), (Real)(p->tension));
+}
+#endif
 
 static inline void add_scaled(Vector* sum, Real s, Real x, Real y, Real z) {
   sum->x = fma(s, x, sum->x);
@@ -48,8 +59,7 @@ typedef struct {
   Vector push;
 } PairSums;
 
-static inline void add_pair(__constant Params* p, const Lanes* a, Real pressure, __global const float* b,
-                            PairSums* sums) {
+static inline void add_pair(__constant Params* p, const Lanes* a, __global const float* b, PairSums* sums) {
   Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
   Real r2 = squared_length(x, y, z);
   Real r = sqrt(r2);
@@ -65,10 +75,10 @@ static inline void add_pair(__constant Params* p, const Lanes* a, Real pressure,
   add_scaled(&sums->push, s, x, y, z);
 }
 
-static inline Real total(__constant Params* p, const Lanes* a, Real density, Real pressure, Real push, Real slope) {
+static inline Real total(__constant Params* p, const Lanes* a, Real push, Real slope) {
   return fma((Real)(p->force_scale), push, a->pressure_term * slope);
 }
-#define SQUALL_TOTAL(axis) total(p, a, density, pressure, sums.push.axis, slope.axis)
+#define SQUALL_TOTAL(axis) total(p, a, sums.push.axis, slope.axis)
 
 #else
 
@@ -76,38 +86,31 @@ typedef struct {
   Vector push, drag;
 } PairSums;
 
-static inline void add_pair(__constant Params* p, const Lanes* a, Real pressure, __global const float* b,
-                            PairSums* sums) {
+static inline void add_pair(__constant Params* p, const Lanes* a, __global const float* b, PairSums* sums) {
   Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
   Real r = sqrt(squared_length(x, y, z));
   Real u = remaining_support(r, (Real)(p->inverse_support));
-  add_scaled(&sums->push, mueller_pair(r, u, pressure, (Real)(b[7]), (Real)(b[3]), (Real)(p->tiny)), x, y, z);
+  add_scaled(&sums->push, mueller_pair(r, u, a->pressure, (Real)(b[7]), (Real)(b[3]), (Real)(p->tiny)), x, y, z);
 #if SQUALL_VISCOSITY
   add_scaled(&sums->drag, viscosity_laplacian(u) * (Real)(b[7]), (Real)(b[4]) - a->vx, (Real)(b[5]) - a->vy,
              (Real)(b[6]) - a->vz);
 #endif
 }
 
-static inline Real total(__constant Params* p, Real density, Real pressure, Real push, Real drag, Real slope) {
-  Real force = fma((Real)(p->force_scale), push, pressure * slope);
+static inline Real total(__constant Params* p, const Lanes* a, Real push, Real drag, Real slope) {
+  Real force = fma((Real)(p->force_scale), push, a->pressure * slope);
 #if SQUALL_VISCOSITY
   force = fma((Real)(p->viscosity_scale), drag, force);
 #endif
-  return force / density;
+  return force / a->density;
 }
-#define SQUALL_TOTAL(axis) total(p, density, pressure, sums.push.axis, sums.drag.axis, slope.axis)
+#define SQUALL_TOTAL(axis) total(p, a, sums.push.axis, sums.drag.axis, slope.axis)
 
 #endif
 
 static inline void fluid_acceleration(__constant Params* p, __constant Box* boxes, int box_count,
-                                      __global const float* records, __global const float* densities,
-                                      __global const int* cell_start, const Block* block, const Lanes* a,
-                                      Vector* result) {
-  float density_lanes[SQUALL_LANES];
-  for (int lane = 0; lane < SQUALL_LANES; ++lane)
-    density_lanes[lane] = densities[min(block->begin + lane, block->end - 1)];
-  Real density = load_lanes(density_lanes);
-  Real pressure = mueller_pressure(density, (Real)(p->stiffness), (Real)(p->tension));
+                                      __global const float* records, __global const int* cell_start, const Block* block,
+                                      const Lanes* a, Vector* result) {
   PairSums sums;
   sums.push.x = sums.push.y = sums.push.z = (Real)(0);
 #if !SQUALL_WCSPH
@@ -124,7 +127,7 @@ static inline void fluid_acceleration(__constant Params* p, __constant Box* boxe
       count += in_reach(p, records, j, a->x, a->y, a->z);
     }
     walk.next = end;
-    for (int k = 0; k < count; ++k) add_pair(p, a, pressure, records + 8 * (size_t)hits[k], &sums);
+    for (int k = 0; k < count; ++k) add_pair(p, a, records + 8 * (size_t)hits[k], &sums);
   }
   Vector slope;
   opening_slope(p, boxes, box_count, a, &slope);

@@ -61,6 +61,13 @@ static inline Real gather(__global const float* records, const Block* block, int
   return load_lanes(lanes);
 }
 
+/* The block's part of an array with a value per sorted particle, likewise. */
+static inline Real gather_value(__global const float* values, const Block* block) {
+  float lanes[SQUALL_LANES];
+  for (int lane = 0; lane < SQUALL_LANES; ++lane) lanes[lane] = values[min(block->begin + lane, block->end - 1)];
+  return load_lanes(lanes);
+}
+
 /* The block that starts at `begin` in a row that ends at `row_end`. */
 static inline void make_block(__constant Params* p, __global const float* records, int row, int begin, int row_end,
                               Block* block) {

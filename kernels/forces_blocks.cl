@@ -23,7 +23,10 @@ __kernel void forces_blocks(__global const float* sorted, __global float* record
       Vector a;
       make_block(p, sorted, row, begin, row_end, &block);
       load_block(sorted, &block, &lanes);
-      fluid_acceleration(p, boxes, now->box_count, sorted, densities, cell_start, &block, &lanes, &a);
+#if !SQUALL_WCSPH
+      load_pressure(p, densities, &block, &lanes);
+#endif
+      fluid_acceleration(p, boxes, now->box_count, sorted, cell_start, &block, &lanes, &a);
       integrate_block(p, boxes, now, &block, &lanes, &a, isolations, records, clamps);
     }
   }

@@ -8,9 +8,7 @@
 /* Adds the drag of lone drops, by the midpoint rule: at the speed half a kick from now. */
 static inline void add_drag(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* at,
                             __global const float* isolations, Vector* a) {
-  float lanes[SQUALL_LANES];
-  for (int lane = 0; lane < SQUALL_LANES; ++lane) lanes[lane] = isolations[min(block->begin + lane, block->end - 1)];
-  Real weight = load_lanes(lanes);
+  Real weight = gather_value(isolations, block);
   Real coefficient = (Real)(p->drag_coefficient);
   Real half_kick = (Real)(now->kick * p->one_half);
   Real x = at->vx - (Real)(now->wind_x), y = at->vy - (Real)(now->wind_y), z = at->vz - (Real)(now->wind_z);

@@ -196,6 +196,17 @@ class Checker {
       fail(section, "stop_s",
            "stop_s = " + number_text(rain.stop_s) + " in " + section.text() +
                " is not after start_s = " + number_text(rain.start_s));
+    check_same_air(section, rain);
+  }
+
+  /// Lone drops feel one wind and one drag, whichever rain they fell from.
+  void check_same_air(const SectionName& section, const Scene::Rain& rain) const {
+    const Scene::Rain& first = scene_.rains.front();
+    if (rain.wind_m_s != first.wind_m_s)
+      fail(section, "wind_m_s", section.text() + " must have the wind_m_s of [[rain]] 1: one wind blows over a scene");
+    if (rain.drop_diameter_mm != first.drop_diameter_mm)
+      fail(section, "drop_diameter_mm",
+           section.text() + " must have the drop_diameter_mm of [[rain]] 1: drops of a scene feel one drag");
   }
 
   void check_rain_area(const SectionName& section, const Scene::Rain& rain) const {

@@ -1,0 +1,100 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/program.h"
+
+namespace squall::app {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> labels(const json& result) {
+  std::vector<std::string> names;
+  for (const auto& run : result.at("runs")) names.push_back(run.at("label"));
+  return names;
+}
+
+TEST(DevicesCommand, ListsEveryBackend) {
+  const Outcome table = squall({"devices"});
+  EXPECT_EQ(table.code, 0) << table.err;
+  for (const char* backend : {"reference", "omp", "opencl"})
+    EXPECT_NE(table.out.find(backend), std::string::npos) << table.out;
+  const json result = json::parse(squall({"devices", "--json", "-"}).out);
+  ASSERT_EQ(result["backends"].size(), 3u);
+  EXPECT_EQ(result["backends"][0]["name"], "reference");
+  EXPECT_EQ(result["backends"][0]["devices"].size(), 1u);
+}
+
+TEST(DevicesCommand, SaysWhyOpenClCannotRun) {
+  const Outcome outcome =
+      squall({"devices", "--json", "-"}, {{"OCL_ICD_VENDORS", "/no/such/folder"}, {"OCL_ICD_FILENAMES", ""}});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const json opencl = json::parse(outcome.out).at("backends").at(2);
+  EXPECT_EQ(opencl["name"], "opencl");
+  EXPECT_NE(opencl["problem"], "");
+}
+
+TEST(CompareCommand, TheReferenceRunsOnlyWhenNamedAndNeverAgrees) {
+  const Outcome outcome = squall({"compare", k_tiny, "--backend", "reference", "--frames", "4", "--json", "-"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_THAT(labels(result), testing::ElementsAre("reference, double"));
+  EXPECT_EQ(result["runs"][0]["frames"], 4);
+  EXPECT_TRUE(result["agreement"]["bitwise"].is_null());
+  EXPECT_FALSE(result["runs"][0].contains("position_error_dx"));
+}
+
+TEST(CompareCommand, ThreadCountsAgreeBitByBit) {
+  const TemporaryFolder folder;
+  const Outcome outcome = squall({"compare", k_tiny, "--backend", "reference", "--backend", "omp", "--threads", "1,2,3",
+                                  "--frames", "10", "--json", "-", "--out", folder / "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_THAT(labels(result),
+              testing::ElementsAre("reference, double", "omp, 1 thread", "omp, 2 threads", "omp, 3 threads"));
+  EXPECT_EQ(result["agreement"]["bitwise"], true);
+  EXPECT_EQ(result["agreement"]["max_position_error_dx"], 0.0);
+  EXPECT_EQ(result["runs"][1]["state_hash"], result["runs"][3]["state_hash"]);
+  EXPECT_GT(result["runs"][1]["position_error_dx"], 0.0) << "single precision cannot hit double exactly";
+  EXPECT_EQ(result["runs"][1]["readback_mode"], "in_place");
+  const std::string frames = text_of(folder / "out/frames.csv");
+  EXPECT_EQ(std::count(frames.begin(), frames.end(), '\n'), 1 + 4 * 10);
+}
+
+TEST(CompareCommand, EveryReadBackModeOfADeviceTakesPart) {
+  const Outcome outcome =
+      squall({"compare", k_tiny, "--backend", "opencl", "--device", "0", "--frames", "6", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_THAT(labels(result),
+              testing::ElementsAre("opencl 0, none", "opencl 0, blocking", "opencl 0, mapped", "opencl 0, pinned"));
+  EXPECT_EQ(result["agreement"]["bitwise"], true);
+  EXPECT_FALSE(result["runs"][0].contains("exposed_readback_ms"));
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_TRUE(result["runs"][i]["exposed_readback_ms"].is_number());
+    EXPECT_LE(result["runs"][i]["exposed_readback_interval_ms"]["low"], result["runs"][i]["exposed_readback_ms"]);
+  }
+  EXPECT_FALSE(result["context"]["opencl"].is_null());
+}
+
+TEST(CompareCommand, TheDefaultIsEveryBackendAndAllAgree) {
+  const Outcome outcome = squall({"compare", k_tiny, "--frames", "20"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* text : {"omp, 1 thread", "opencl 0, none", "opencl 0, pinned", "agreement: same bits"})
+    EXPECT_NE(outcome.out.find(text), std::string::npos) << outcome.out;
+}
+
+TEST(CompareCommand, ADeviceAskedForThatIsNotThereEndsIt) {
+  const Environment no_opencl{{"OCL_ICD_VENDORS", "/no/such/folder"}, {"OCL_ICD_FILENAMES", ""}};
+  EXPECT_EQ(squall({"compare", k_tiny, "--backend", "opencl", "--frames", "1"}, no_opencl).code, 4);
+  EXPECT_EQ(squall({"compare", k_tiny, "--device", "0", "--frames", "1"}, no_opencl).code, 4);
+  EXPECT_EQ(squall({"compare", k_tiny, "--device", "no such name", "--frames", "1"}).code, 4);
+  const Outcome without = squall({"compare", k_tiny, "--threads", "1,2", "--frames", "2"}, no_opencl);
+  EXPECT_EQ(without.code, 0) << without.err;
+  EXPECT_NE(without.err.find("opencl is left out"), std::string::npos) << without.err;
+}
+
+}  // namespace
+}  // namespace squall::app

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace squall::app {
+
+/// A folder that goes away with its object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "squall_test_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
+    path_ = name;
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+using Environment = std::vector<std::pair<std::string, std::string>>;
+
+/// The command squall as a process of its own, its output in files.
+class Program {
+ public:
+  explicit Program(const std::vector<std::string>& arguments, const Environment& environment = {}) {
+    std::fflush(nullptr);  // what is buffered here would be written by the child, too
+    child_ = fork();
+    if (child_ != 0) return;
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    if (std::freopen(out().c_str(), "w", stdout) == nullptr || std::freopen(err().c_str(), "w", stderr) == nullptr)
+      _exit(126);
+    std::vector<std::string> texts{SQUALL_PROGRAM};
+    texts.insert(texts.end(), arguments.begin(), arguments.end());
+    std::vector<char*> words;
+    for (auto& text : texts) words.push_back(text.data());
+    words.push_back(nullptr);
+    execv(SQUALL_PROGRAM, words.data());
+    _exit(127);
+  }
+
+  void interrupt() const { kill(child_, SIGINT); }
+
+  Outcome wait() {
+    int status = 0;
+    waitpid(child_, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), text_of(out()), text_of(err())};
+  }
+
+ private:
+  std::string out() const { return folder_ / "out"; }
+  std::string err() const { return folder_ / "err"; }
+  TemporaryFolder folder_;
+  pid_t child_ = -1;
+};
+
+inline Outcome squall(const std::vector<std::string>& arguments, const Environment& environment = {}) {
+  return Program(arguments, environment).wait();
+}
+
+inline const std::string k_tiny = SQUALL_TEST_SCENES_DIR "/tiny.toml";
+
+}  // namespace squall::app

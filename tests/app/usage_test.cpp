@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include "app/program.h"
+
+namespace squall::app {
+namespace {
+
+/// A command line that cannot be carried out: exit code 2, nothing on stdout, the reason on stderr.
+void expect_usage_error(const std::vector<std::string>& arguments, const std::string& reason,
+                        const Environment& environment = {}) {
+  const Outcome outcome = squall(arguments, environment);
+  EXPECT_EQ(outcome.code, 2) << reason;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+}
+
+TEST(Usage, HelpAndVersionAreFine) {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{{"--help"}, {"run", "--help"}, {"--version"}}) {
+    const Outcome outcome = squall(arguments);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.out.find("squall"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.err, "");
+  }
+}
+
+TEST(Usage, CommandsThatAreNotThere) {
+  expect_usage_error({}, "a command is missing");
+  expect_usage_error({"rum"}, "'rum' is unknown");
+  for (const char* later : {"sweep", "agree", "study", "stress", "cost", "validate", "view"})
+    expect_usage_error({later, k_tiny, "--anything"}, "not in this version");
+}
+
+TEST(Usage, OptionsThatAreNotThere) {
+  expect_usage_error({"run", k_tiny, "--bogus"}, "--bogus");
+  expect_usage_error({"devices", "--frames", "3"}, "--frames");
+  for (const std::string later : {"--fast-math", "--tune", "--trace=t.json", "--checkpoint=c", "--checkpoint-every=1",
+                                  "--restart=c", "--tolerance=1", "--max-error=1"}) {
+    expect_usage_error({"run", k_tiny, "--backend", "reference", later}, "not in this version");
+    expect_usage_error({"compare", k_tiny, later}, "not in this version");
+  }
+}
+
+TEST(Usage, ValuesThatAreNotThere) {
+  expect_usage_error({"run", k_tiny, "--readback", "async"}, "not in this version");
+  expect_usage_error({"compare", k_tiny, "--readback", "none,quantized"}, "not in this version");
+  expect_usage_error({"run", k_tiny, "--pressure", "dfsph"}, "not in this version");
+  expect_usage_error({"run", k_tiny, "--precision", "double", "--backend", "omp"}, "not in this version");
+  expect_usage_error({"compare", k_tiny, "--precision", "double"}, "not in this version");
+  expect_usage_error({"run", k_tiny, "--backend", "cuda"}, "reference, omp, opencl");
+  expect_usage_error({"run", k_tiny, "--pressure", "magic"}, "mueller, wcsph");
+  expect_usage_error({"run", k_tiny, "--format", "xml"}, "google-benchmark");
+}
+
+TEST(Usage, ValuesOutOfRange) {
+  expect_usage_error({"run", k_tiny, "--frames", "0"}, "--frames");
+  expect_usage_error({"run", k_tiny, "--frames", "many"}, "--frames");
+  expect_usage_error({"run", k_tiny, "--threads", "-1"}, "--threads");
+  expect_usage_error({"run", k_tiny, "--seconds", "0"}, "--seconds");
+  expect_usage_error({"run", k_tiny, "--budget-ms", "-3"}, "--budget-ms");
+  expect_usage_error({"run"}, "scene");
+}
+
+TEST(Usage, OptionsThatContradictEachOther) {
+  expect_usage_error({"run", k_tiny, "--frames", "3", "--seconds", "1"}, "--seconds");
+  expect_usage_error({"run", k_tiny, "--save-every", "3"}, "--out");
+  expect_usage_error({"run", k_tiny, "--backend", "reference", "--device", "0"}, "--device");
+  expect_usage_error({"run", k_tiny, "--backend", "reference", "--simd", "avx2"}, "--simd");
+}
+
+TEST(Usage, VariablesAreCheckedLikeOptions) {
+  expect_usage_error({"run", k_tiny, "--backend", "reference"}, "--frames", {{"SQUALL_FRAMES", "0"}});
+  expect_usage_error({"run", k_tiny}, "cuda", {{"SQUALL_BACKEND", "cuda"}});
+  expect_usage_error({"run", k_tiny, "--backend", "reference"}, "not in this version", {{"SQUALL_TRACE", "t.json"}});
+}
+
+TEST(Usage, VariablesOfOtherCommandsAreNoConcern) {
+  EXPECT_EQ(squall({"devices"}, {{"SQUALL_FRAMES", "0"}}).code, 0);
+  // A list is fine for compare; run takes one.
+  EXPECT_EQ(squall({"compare", k_tiny, "--backend", "reference", "--frames", "1"}, {{"SQUALL_THREADS", "1,2"}}).code,
+            0);
+  expect_usage_error({"run", k_tiny, "--frames", "1"}, "--threads", {{"SQUALL_THREADS", "1,2"}});
+}
+
+}  // namespace
+}  // namespace squall::app

@@ -1,0 +1,243 @@
+// The frame plan: how many sub-steps, how long, and what each is told about gravity, boxes, held blocks and wind.
+#include "core/frame_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "support/numbers.h"
+#include "support/scenes.h"
+
+namespace squall::test {
+namespace {
+
+Clock clock_at(std::uint64_t frame, int previous_substeps = 0, double previous_dt = 0) {
+  Clock clock;
+  clock.frame = frame;
+  clock.previous_substeps = previous_substeps;
+  clock.previous_dt = previous_dt;
+  return clock;
+}
+
+/// Plans of `frames` frames, each following the one before, at rest.
+std::vector<FramePlan> plan_frames(const Scene& scene, int frames, const Settings& settings = {}) {
+  std::vector<FramePlan> plans;
+  Clock clock = clock_at(0);
+  for (int f = 0; f < frames; ++f) {
+    plans.push_back(plan_frame(scene, settings, clock));
+    clock = clock_at(clock.frame + 1, static_cast<int>(plans.back().substeps.size()), plans.back().dt);
+  }
+  return plans;
+}
+
+TEST(TimeStepLimit, IsTheSmallestOfItsTerms) {
+  Scene scene = empty_tank();  // H = 0.1 m
+  scene.solver.dt_max_s = 1;
+  scene.solver.speed_of_sound_m_s = 20;
+  scene.solver.stiffness_m2_s2 = 400;
+  const double tolerance = rounding<double>(16);
+  EXPECT_NEAR(time_step_limit(scene, Pressure::wcsph, 0), 0.4 * 0.1 / 20, tolerance);
+  EXPECT_NEAR(time_step_limit(scene, Pressure::wcsph, 5), 0.4 * 0.1 / (20 + 6), tolerance);
+  EXPECT_NEAR(time_step_limit(scene, Pressure::mueller, 5), 0.4 * 0.1 / (20 + 6), tolerance);
+  scene.fluid.viscosity_m2_s = 10;
+  EXPECT_NEAR(time_step_limit(scene, Pressure::wcsph, 0), 0.1 * 0.01 / 10, tolerance);
+  scene.fluid.viscosity_m2_s.reset();
+  scene.solver.dt_max_s = 1e-3;
+  EXPECT_EQ(time_step_limit(scene, Pressure::wcsph, 0), 1e-3);
+}
+
+TEST(FramePlan, SubstepsFillTheFrameAndObeyTheLimit) {
+  const Scene scene = filled_tank(4);
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller})
+    for (const double speed : {0.0, 0.7, 4.4}) {
+      Settings settings;
+      settings.pressure = pressure;
+      Clock clock = clock_at(7);
+      clock.max_speed = speed;
+      clock.max_acceleration = 25;
+      const FramePlan plan = plan_frame(scene, settings, clock);
+      const double n = static_cast<double>(plan.substeps.size());
+      const double limit = time_step_limit(scene, pressure, speed + 25.0 / 60);
+      EXPECT_EQ(plan.frame, 7u);
+      EXPECT_FALSE(plan.limited);
+      EXPECT_NEAR(n * plan.dt, 1.0 / 60, rounding<double>(2, 1.0 / 60));
+      EXPECT_LE(plan.dt, limit * (1 + 1e-6));
+      EXPECT_GT(1.0 / 60 / (n - 1), limit) << "one sub-step fewer would have done";
+      for (const auto& substep : plan.substeps) EXPECT_EQ(substep.dt, plan.dt);
+    }
+}
+
+TEST(FramePlan, GravityCountsAsAnAccelerationFromTheFirstFrameOn) {
+  Scene scene = filled_tank(4);
+  scene.solver.speed_of_sound_m_s = 1;
+  scene.gravity_m_s2 = {0, -981, 0};
+  const FramePlan plan = plan_frame(scene, {}, clock_at(0));
+  EXPECT_LE(plan.dt, time_step_limit(scene, Pressure::wcsph, 981.0 / 60) * (1 + 1e-6));
+}
+
+TEST(FramePlan, CountFallsByATenthAtMostAndRisesFreely) {
+  const Scene scene = filled_tank(4);
+  const std::size_t calm = plan_frame(scene, {}, clock_at(0)).substeps.size();
+  ASSERT_LT(calm, 30u);
+  for (const auto& [before, after] : std::vector<std::pair<int, std::size_t>>{{100, 90}, {59, 54}, {40, 36}, {31, 28}})
+    EXPECT_EQ(plan_frame(scene, {}, clock_at(1, before, 1e-4)).substeps.size(), std::max(after, calm)) << before;
+  Clock fast = clock_at(1, 1, 1.0 / 60);
+  fast.max_speed = 50;
+  EXPECT_GT(plan_frame(scene, {}, fast).substeps.size(), 4 * calm);
+  int count = 100, frames = 0;
+  for (; count > static_cast<int>(calm); ++frames) {
+    const int next = static_cast<int>(plan_frame(scene, {}, clock_at(1, count, 1e-4)).substeps.size());
+    ASSERT_LT(next, count) << "below ten it falls by one";
+    ASSERT_GE(next, count - std::max(1, count / 10));
+    count = next;
+  }
+}
+
+TEST(FramePlan, TooManySubstepsAreCutAndSaidSo) {
+  for (const double speed : {1e6, std::numeric_limits<double>::infinity()}) {
+    Clock clock = clock_at(0);
+    clock.max_speed = speed;
+    const FramePlan plan = plan_frame(filled_tank(4), {}, clock);
+    EXPECT_TRUE(plan.limited);
+    EXPECT_EQ(plan.substeps.size(), static_cast<std::size_t>(k_max_substeps));
+  }
+}
+
+// Leap-frog: the first kick of all is half a step, any other reaches from middle to middle.
+TEST(FramePlan, KicksReachFromMiddleToMiddle) {
+  const Scene scene = filled_tank(4);
+  const FramePlan first = plan_frame(scene, {}, clock_at(0));
+  EXPECT_EQ(first.substeps[0].kick, first.dt / 2);
+  EXPECT_EQ(first.substeps[0].previous_dt, 0);
+  EXPECT_EQ(first.substeps[1].kick, first.dt);
+  const FramePlan next = plan_frame(scene, {}, clock_at(1, 5, 1.0 / 300));
+  EXPECT_NEAR(next.substeps[0].kick, (1.0 / 300 + next.dt) / 2, rounding<double>(2, 0.01));
+  EXPECT_EQ(next.substeps[0].previous_dt, 1.0 / 300);
+}
+
+TEST(FramePlan, GravityAloneWithoutMotion) {
+  for (const FramePlan& plan : plan_frames(filled_tank(4), 2))
+    for (const auto& substep : plan.substeps) {
+      EXPECT_EQ(substep.acceleration_x, 0);
+      EXPECT_EQ(substep.acceleration_y, -9.81);
+      EXPECT_EQ(substep.acceleration_z, 0);
+    }
+}
+
+// What the kicks of all frames take away is the velocity that the container gained, to rounding: no impulse is lost,
+// however short the motion.
+TEST(FramePlan, KicksCarryTheWholeImpulseOfTheContainer) {
+  for (const double duration : {0.1, 0.001}) {
+    Scene scene = filled_tank(4);
+    scene.container.motions.push_back({0.05, duration, std::nullopt, Eigen::Vector3d(0.3 / duration, 0, 0)});
+    double gained = 0, time = 0;
+    int kicks = 0;
+    for (const FramePlan& plan : plan_frames(scene, 12))
+      for (const auto& substep : plan.substeps) {
+        gained -= substep.kick * substep.acceleration_x;
+        ++kicks;
+        // velocities now belong to the middle of this sub-step
+        EXPECT_NEAR(gained, container_velocity(scene, time + substep.dt / 2).x(),
+                    rounding<double>(8 * kicks, 0.3 / duration * time + 1));
+        time += substep.dt;
+      }
+    EXPECT_NEAR(gained, 0.3, rounding<double>(8 * kicks, 1));
+  }
+}
+
+TEST(FramePlan, BoxesVanishInTheFirstSubstepAtOrAfterTheirTime) {
+  Scene scene = filled_tank(4);
+  const auto box = [](double x, std::optional<double> until) {
+    return Scene::SolidBox{{x, 0.4, 0.1}, {x + 0.05, 0.5, 0.2}, until};
+  };
+  scene.boxes = {box(0.1, 0.1), box(0.2, std::nullopt), box(0.3, 0.0712), box(0.4, 0.1)};
+  double time = 0;
+  for (const FramePlan& plan : plan_frames(scene, 8))
+    for (const auto& substep : plan.substeps) {
+      const double now = time + 1e-9;
+      EXPECT_EQ(substep.box_count, 1 + 2 * (now < 0.1) + (now < 0.0712)) << time;
+      time += substep.dt;
+    }
+  // those that stand longest come first, in the scene's order where equal
+  const auto boxes = make_boxes(scene, Pressure::wcsph);
+  ASSERT_EQ(boxes.size(), 4u);
+  const std::vector<double> expected = {0.2, 0.1, 0.4, 0.3};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(boxes[i].solid_min[0], expected[i]);
+}
+
+TEST(FramePlan, FacesOfBoxesLieShiftedIntoThem) {
+  Scene scene = empty_tank();
+  scene.container.min_m = {-1, 0, 0};
+  scene.boxes = {{{0.1, 0, 0.1}, {0.3, 0.2, 0.3}, std::nullopt}};
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller}) {
+    const auto box = make_boxes(scene, pressure).at(0);
+    const double density = 0.05 * wall_shift(pressure == Pressure::wcsph ? SQUALL_CUBIC : SQUALL_POLY6, 2);
+    const double force = 0.05 * wall_shift(pressure == Pressure::wcsph ? SQUALL_CUBIC : SQUALL_SPIKY, 2);
+    const double tolerance = rounding<double>(4, 2);
+    EXPECT_NEAR(box.solid_min[0], 1.1, tolerance) << "relative to the container";
+    EXPECT_NEAR(box.density_min[0], 1.1 + density, tolerance);
+    EXPECT_NEAR(box.density_max[1], 0.2 - density, tolerance);
+    EXPECT_NEAR(box.force_min[2], 0.1 + force, tolerance);
+    EXPECT_NEAR(box.force_max[0], 1.3 - force, tolerance);
+  }
+}
+
+TEST(FramePlan, HeldBlocksAreReleasedOnceInTheRightSubstep) {
+  Scene scene = empty_tank();
+  const auto block = [](double x, std::optional<double> until) {
+    Scene::Block made;
+    made.min_m = {x, 0.1, 0.1};
+    made.max_m = {x + 0.1, 0.2, 0.2};
+    made.held_until_s = until;
+    return made;
+  };
+  scene.blocks = {block(0.1, 0.1), block(0.2, std::nullopt), block(0.3, 0.0712), block(0.4, 0.1)};
+  double time = 0;
+  int released = 0, held_before = 3;
+  for (const FramePlan& plan : plan_frames(scene, 8))
+    for (const auto& substep : plan.substeps) {
+      const double now = time + 1e-9;
+      EXPECT_EQ(substep.held_count, 2 * (now < 0.1) + (now < 0.0712)) << time;
+      EXPECT_EQ(substep.released_count, held_before - substep.held_count) << time;
+      held_before = substep.held_count;
+      released += substep.released_count;
+      time += substep.dt;
+    }
+  EXPECT_EQ(released, 3);
+  const auto groups = make_held_groups(scene);
+  ASSERT_EQ(groups.size(), 3u);
+  const std::vector<std::uint32_t> first = {0, 24, 16};  // 2 x 2 x 2 particles a block
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(groups[i].first_id, first[i]);
+    EXPECT_EQ(groups[i].end_id, first[i] + 8);
+  }
+}
+
+TEST(FramePlan, StatisticsBelongToTheLastSubstep) {
+  Settings settings;
+  for (const bool wanted : {true, false}) {
+    settings.statistics = wanted;
+    const FramePlan plan = plan_frame(filled_tank(4), settings, clock_at(0));
+    ASSERT_GT(plan.substeps.size(), 1u);
+    for (std::size_t s = 0; s < plan.substeps.size(); ++s)
+      EXPECT_EQ(plan.substeps[s].statistics, wanted && s + 1 == plan.substeps.size());
+  }
+}
+
+TEST(FramePlan, WindIsRelativeToTheContainer) {
+  Scene scene = filled_tank(4);
+  scene.rains.push_back(rain_over_tank(100));
+  scene.rains.back().wind_m_s = {3, 0, -1};
+  scene.container.motions.push_back({0, 1, std::nullopt, Eigen::Vector3d(2, 0, 0)});
+  double time = 0;
+  for (const FramePlan& plan : plan_frames(scene, 3))
+    for (const auto& substep : plan.substeps) {
+      EXPECT_NEAR(substep.wind_x, 3 - 2 * time, rounding<double>(64, 3));
+      EXPECT_EQ(substep.wind_z, -1);
+      time += substep.dt;
+    }
+}
+
+}  // namespace
+}  // namespace squall::test

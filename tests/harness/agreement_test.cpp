@@ -1,0 +1,125 @@
+#include "harness/agreement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/fake_solver.h"
+
+namespace squall::harness {
+namespace {
+
+Particles two_particles() {
+  Particles particles;
+  particles.add(7, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  particles.add(3, {0.0, 1.0, 0.0}, {0.0, 2.0, 0.0});
+  return particles;
+}
+
+TEST(Difference, IsNothingForTheSameParticlesInAnyOrder) {
+  Particles other;
+  other.add(3, {0.0, 1.0, 0.0}, {0.0, 2.0, 0.0});
+  other.add(7, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  EXPECT_FALSE(difference_between(two_particles(), other, 0.5));
+}
+
+TEST(Difference, NamesTheLowestParticleAndTheLargestErrors) {
+  Particles other = two_particles();
+  other.positions[0].z() = 0.25;
+  other.velocities[1].x() = -3.0;
+  const auto difference = difference_between(two_particles(), other, 0.5);
+  ASSERT_TRUE(difference);
+  EXPECT_EQ(difference->particle, 3u);
+  EXPECT_EQ(difference->max_position_error_dx, 0.5);
+  EXPECT_EQ(difference->max_velocity_error, 3.0);
+}
+
+TEST(Difference, ToAMissingOrBrokenParticleIsInfinite) {
+  Particles fewer;
+  fewer.add(3, {0.0, 1.0, 0.0}, {0.0, 2.0, 0.0});
+  const auto missing = difference_between(fewer, two_particles(), 0.5);
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(missing->particle, 7u);
+  EXPECT_TRUE(std::isinf(missing->max_position_error_dx));
+  Particles broken = two_particles();
+  broken.positions[1].x() = std::nan("");
+  const auto difference = difference_between(two_particles(), broken, 0.5);
+  ASSERT_TRUE(difference);
+  EXPECT_EQ(difference->particle, 3u);
+  EXPECT_TRUE(std::isinf(difference->max_position_error_dx));
+}
+
+/// Steps fakes in lock-step and returns what the check says.
+Agreement agreement_of(std::vector<std::pair<RunPlan, Faults>> what) {
+  std::vector<std::unique_ptr<Run>> runs;
+  std::vector<const Run*> views;
+  for (const auto& [plan, faults] : what) {
+    runs.push_back(std::make_unique<Run>(make_fake(plan, faults), plan));
+    views.push_back(runs.back().get());
+  }
+  AgreementCheck check;
+  while (!runs.front()->done()) {
+    for (auto& run : runs) run->step();
+    check.after_round(views);
+  }
+  return check.result();
+}
+
+Faults differing_from(int frame) {
+  Faults faults;
+  faults.differs_from = frame;
+  return faults;
+}
+
+TEST(Agreement, SameBitsAfterEveryFrame) {
+  const Agreement agreement = agreement_of({{short_plan("a"), {}}, {short_plan("b"), {}}, {short_plan("c"), {}}});
+  ASSERT_TRUE(agreement.bitwise);
+  EXPECT_TRUE(*agreement.bitwise);
+  EXPECT_TRUE(agreement.agree);
+  EXPECT_FALSE(agreement.first_difference_frame);
+  EXPECT_EQ(agreement.verdict, "same bits in 3 runs after each of 8 frames");
+}
+
+TEST(Agreement, FirstDifferenceIsNamed) {
+  const Agreement agreement =
+      agreement_of({{short_plan("a"), {}}, {short_plan("b"), differing_from(4)}, {short_plan("c"), differing_from(6)}});
+  ASSERT_TRUE(agreement.bitwise);
+  EXPECT_FALSE(*agreement.bitwise);
+  EXPECT_FALSE(agreement.agree);
+  EXPECT_EQ(agreement.first_difference_frame, 4u);
+  ASSERT_TRUE(agreement.difference);
+  EXPECT_EQ(agreement.difference->particle, 5u);
+  // 0.01 m at a spacing of 0.1 m, found as a difference of coordinates below 1 m.
+  EXPECT_NEAR(agreement.difference->max_position_error_dx, 0.1, 10.0 * std::numeric_limits<double>::epsilon());
+  EXPECT_NE(agreement.verdict.find("a and b differ first after frame 4, particle 5"), std::string::npos)
+      << agreement.verdict;
+}
+
+TEST(Agreement, TheReferenceAndDoublePrecisionTakeNoPart) {
+  RunPlan in_double = short_plan("d");
+  in_double.settings.precision = Precision::double_precision;
+  const Agreement agreement =
+      agreement_of({{short_plan("a"), {}}, {short_plan("r", "reference"), differing_from(0)}, {in_double, {}}});
+  EXPECT_FALSE(agreement.bitwise);
+  EXPECT_TRUE(agreement.agree);
+}
+
+TEST(Agreement, DevicesThatPromiseNoBitsAreHeldToATolerance) {
+  RunPlan loose = short_plan("loose");
+  loose.strict = false;
+  const Agreement late = agreement_of({{short_plan("a"), {}}, {loose, differing_from(3)}});
+  EXPECT_TRUE(late.agree) << late.verdict;
+  EXPECT_FALSE(late.bitwise);
+  const Agreement early = agreement_of({{short_plan("a"), {}}, {loose, differing_from(0)}});
+  EXPECT_FALSE(early.agree);
+  EXPECT_NE(early.verdict.find("loose is 0.1 dx away from a"), std::string::npos) << early.verdict;
+}
+
+TEST(Agreement, ToleranceGrowsWithStepsAndCoordinates) {
+  Scene scene = small_scene();
+  EXPECT_DOUBLE_EQ(rounding_tolerance_dx(scene, 10),
+                   16.0 * 10.0 * 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()));
+}
+
+}  // namespace
+}  // namespace squall::harness

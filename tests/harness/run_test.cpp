@@ -1,0 +1,103 @@
+#include "harness/run.h"
+
+#include <gtest/gtest.h>
+
+#include "harness/fake_solver.h"
+
+namespace squall::harness {
+namespace {
+
+TEST(Run, CountsFramesAfterTheWarmUp) {
+  const RunPlan plan = short_plan("fake");
+  const Row row = run_once(make_fake(plan), plan);
+  EXPECT_EQ(row.error, "");
+  EXPECT_EQ(row.frames, 6);
+  EXPECT_EQ(row.particles, 64);
+  EXPECT_DOUBLE_EQ(row.simulated_s, 0.6);
+  EXPECT_GT(row.fps, 0.0);
+  EXPECT_EQ(row.readback_bytes_per_frame, 1000.0);
+  EXPECT_EQ(row.solver.device, "fake device");
+}
+
+TEST(Run, RewindingLeavesNoTraceOfTheWarmUp) {
+  RunPlan plan = short_plan("fake");
+  plan.warm_up_frames = 0;
+  const Row cold = run_once(make_fake(plan), plan);
+  plan.warm_up_frames = 3;
+  plan.rewind = true;
+  std::vector<double> times;
+  const Row warm = run_once(make_fake(plan), plan, [&](const harness::Run& run) {
+    if (!run.frames().empty()) times.push_back(run.frames().back().time_s);
+    return true;
+  });
+  EXPECT_EQ(warm.state_hash, cold.state_hash);
+  EXPECT_EQ(warm.steps, cold.steps);
+  ASSERT_EQ(times.size(), 6u);
+  EXPECT_DOUBLE_EQ(times.front(), 0.1);
+  plan.rewind = false;
+  EXPECT_NE(run_once(make_fake(plan), plan).state_hash, cold.state_hash);
+}
+
+TEST(Run, WithoutReadBackDeliversNothing) {
+  const RunPlan plan = short_plan("fake", "opencl", Readback::none);
+  EXPECT_EQ(run_once(make_fake(plan), plan).readback_bytes_per_frame, 0.0);
+}
+
+TEST(Run, StopsWhenAsked) {
+  const RunPlan plan = short_plan("fake");
+  const Row row = run_once(make_fake(plan), plan, [](const harness::Run& run) { return run.frames().size() < 2; });
+  EXPECT_EQ(row.error, "");
+  EXPECT_EQ(row.frames, 2);
+}
+
+TEST(Run, LostParticlesMakeAnErrorRow) {
+  const RunPlan plan = short_plan("fake");
+  Faults faults;
+  faults.loses_at = 4;
+  const Row row = run_once(make_fake(plan, faults), plan);
+  EXPECT_NE(row.error.find("1 of 64 particles"), std::string::npos) << row.error;
+  EXPECT_EQ(row.lost_particles, 1);
+  EXPECT_FALSE(row.device_failed);
+  EXPECT_EQ(row.frames, 3);
+}
+
+TEST(Run, StatesThatAreNotFiniteMakeAnErrorRow) {
+  const RunPlan plan = short_plan("fake");
+  Faults faults;
+  faults.states_not_finite = true;
+  const Row row = run_once(make_fake(plan, faults), plan);
+  EXPECT_NE(row.error.find("not finite"), std::string::npos) << row.error;
+  EXPECT_FALSE(row.energy_drift);
+}
+
+TEST(Run, AFailingDeviceEndsTheRunAndIsSaid) {
+  const RunPlan plan = short_plan("fake");
+  Faults faults;
+  faults.device_fails_at = 3;
+  const Row row = run_once(make_fake(plan, faults), plan);
+  EXPECT_TRUE(row.device_failed);
+  EXPECT_NE(row.error.find("the fake device is gone"), std::string::npos) << row.error;
+  EXPECT_EQ(row.frames, 1);
+}
+
+TEST(Run, RefusesPlansThatMeasureNothing) {
+  RunPlan plan = short_plan("fake");
+  plan.frames = 0;
+  EXPECT_THROW(run_once(make_fake(plan), plan), InputError);
+  plan.frames = 1;
+  plan.warm_up_frames = -1;
+  EXPECT_THROW(run_once(make_fake(plan), plan), InputError);
+}
+
+TEST(Profile, MeansPhasesOverFramesOfItsOwnRun) {
+  const RunPlan plan = short_plan("fake");
+  const auto start = make_fake(plan)->state();
+  const auto make = [](const RunPlan& what) { return make_fake(what); };
+  const auto phases = profile_phases(make, plan, start);
+  ASSERT_EQ(phases.count("density"), 1u);
+  EXPECT_DOUBLE_EQ(phases.at("density"), 3.0);
+  EXPECT_TRUE(profile_phases(make, short_plan("fake", "reference"), start).empty());
+}
+
+}  // namespace
+}  // namespace squall::harness

@@ -1,0 +1,146 @@
+// The promise of docs/determinism.md: the same scene gives the same bits on any number of threads, on any instruction
+// set and on OpenCL. Every backend starts from one state and is compared after every frame, over 200 sub-steps in each
+// of three windows of the three scenes of the 2016 report, with each pressure solver.
+#include <functional>
+#include <ostream>
+
+#include "core/state_hash.h"
+#include "solver/backends_under_test.h"
+#include "solver/states.h"
+
+namespace squall::test {
+namespace {
+
+struct Window {
+  std::string name;
+  std::string scene;
+  double at_s;  // where the window begins
+  /// What the test changes in the scene: it moves late events into reach.
+  std::function<void(Scene&)> change = [](Scene&) {};
+};
+
+void PrintTo(const Window& window, std::ostream* out) { *out << window.name; }
+
+void move_at_once(Scene& scene) {
+  if (scene.container.motions.empty())
+    scene.container.motions.push_back({0.0, 0.8, Eigen::Vector3d(-0.1, 0, 0), std::nullopt});
+  scene.container.motions[0].start_s = 0.0;
+  scene.container.motions[0].duration_s = 0.3;
+}
+
+void rain_hard(Scene& scene) { scene.rains.at(0).particles_per_s = 12000; }
+
+const std::vector<Window>& windows() {
+  static const std::vector<Window> all = {
+      {"collapse_start", "collapse", 0.0},
+      {"collapse_front_meets_wall", "collapse", 0.4},
+      {"collapse_container_moves", "collapse", 0.05, move_at_once},
+      {"drop_vanishing_boxes", "drop", 0.0834},
+      {"drop_impact", "drop", 0.35},
+      {"drop_container_moves", "drop", 0.15, move_at_once},
+      {"rain_start", "rain", 0.0, rain_hard},
+      {"rain_impact", "rain", 0.15, rain_hard},
+      {"rain_container_moves", "rain", 0.1,
+       [](Scene& scene) {
+         rain_hard(scene);
+         move_at_once(scene);
+       }},
+  };
+  return all;
+}
+
+class SameBits : public testing::TestWithParam<std::tuple<Window, Pressure>> {
+ protected:
+  Scene scene() const {
+    const Window& window = std::get<0>(GetParam());
+    Scene made = load_scene(std::string(SQUALL_SCENES_DIR "/") + window.scene + ".toml");
+    window.change(made);
+    return made;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Windows, SameBits,
+                         testing::Combine(testing::ValuesIn(windows()),
+                                          testing::Values(Pressure::wcsph, Pressure::mueller)),
+                         [](const auto& info) {
+                           return std::get<0>(info.param).name + "_" + to_string(std::get<1>(info.param));
+                         });
+
+/// The state a window begins with, computed by the first backend.
+State state_at(const BackendUnderTest& first, const Scene& scene, double time_s) {
+  const auto solver = first.make(scene);
+  while (static_cast<double>(solver->clock().frame) / scene.time.frame_rate_hz < time_s)
+    solver->advance(Delivery::nothing);
+  return solver->state();
+}
+
+/// Runs both for `substeps` from `start` and expects the same bits, order and report after every frame.
+class LockStep {
+ public:
+  LockStep(const std::vector<BackendUnderTest>& backends, const Scene& scene, const State& start)
+      : backends_(backends) {
+    for (const BackendUnderTest& backend : backends) {
+      solvers_.push_back(backend.make(scene));
+      solvers_.back()->restore(start);
+    }
+  }
+
+  void run(int substeps) {
+    for (int done = 0; done < substeps && !testing::Test::HasFatalFailure();) {
+      done += solvers_[0]->advance().substeps;
+      const State expected = solvers_[0]->state();
+      const std::uint64_t hash = state_hash(expected.particles, Precision::single_precision);
+      EXPECT_TRUE(hash != last_hash_ || expected.particles.size() == 0) << "nothing moved";
+      last_hash_ = hash;
+      for (std::size_t i = 1; i < solvers_.size(); ++i) {
+        SCOPED_TRACE(testing::Message() << backends_[i].name << " against " << backends_[0].name << " after frame "
+                                        << expected.clock.frame << ", " << done << " sub-steps on");
+        solvers_[i]->advance();
+        expect_equal(*solvers_[i], expected, hash);
+      }
+    }
+  }
+
+ private:
+  void expect_equal(Solver& solver, const State& expected, std::uint64_t hash) {
+    const State state = solver.state();
+    const FrameReport& report = solver.report();
+    const FrameReport& expected_report = solvers_[0]->report();
+    ASSERT_EQ(state_hash(state.particles, Precision::single_precision), hash)
+        << first_difference(state.particles, expected.particles);
+    ASSERT_EQ(state.particles.ids, expected.particles.ids) << "the same water in another order";
+    ASSERT_EQ(state.clock.max_speed, expected.clock.max_speed);
+    ASSERT_EQ(state.clock.max_acceleration, expected.clock.max_acceleration);
+    ASSERT_EQ(report.clamps, expected_report.clamps);
+    ASSERT_EQ(report.lost, expected_report.lost);
+    ASSERT_EQ(report.density_error_max, expected_report.density_error_max);
+    ASSERT_EQ(report.neighbours_mean, expected_report.neighbours_mean);
+  }
+
+  std::vector<BackendUnderTest> backends_;
+  std::vector<std::unique_ptr<Solver>> solvers_;
+  std::uint64_t last_hash_ = 0;
+};
+
+TEST_P(SameBits, OnAnyNumberOfThreadsAndOnOpenCl) {
+  const auto [window, pressure] = GetParam();
+  const Scene scene = this->scene();
+  std::vector<BackendUnderTest> backends = {opencl("by_device", Simd::best, pressure),
+                                            opencl("particles", Simd::scalar, pressure)};
+  for (const int threads : {1, 2, 3})
+    backends.push_back(omp(std::to_string(threads) + "_threads", threads, Simd::best, pressure));
+  LockStep(backends, scene, state_at(backends.back(), scene, window.at_s)).run(200);
+}
+
+// Every instruction set, every width of OpenCL kernels, and the specification in single precision; on fewer particles,
+// because these are slow.
+TEST_P(SameBits, OnAnyInstructionSetAndInTheReference) {
+  const auto [window, pressure] = GetParam();
+  Scene scene = this->scene();
+  scale_to_particles(scene, 700);
+  const std::vector<BackendUnderTest> backends = bitwise_backends(pressure);
+  LockStep(backends, scene, state_at(backends.front(), scene, window.at_s)).run(100);
+}
+
+}  // namespace
+}  // namespace squall::test

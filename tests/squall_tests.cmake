@@ -1,0 +1,41 @@
+# squall_add_tests(<folder> [BACKENDS <name>...] LABELS <label>...)
+#
+# Builds tests/<folder>/**/*_test.cpp into <folder>_tests and adds it to ctest: as one entry, or as one entry per backend
+# named, which runs the tests with /<name> in their parameter's name, and one for the tests without a backend.
+function(squall_add_tests folder)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "BACKENDS;LABELS")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp")
+  if(NOT sources)
+    return()
+  endif()
+  set(program ${folder}_tests)
+  add_executable(${program} ${sources})
+  target_include_directories(${program} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
+  target_link_libraries(${program} PRIVATE squall_backends GTest::gtest_main GTest::gmock squall_options)
+  foreach(library squall_openmp squall_opencl squall_harness)
+    if(TARGET ${library})
+      target_link_libraries(${program} PRIVATE ${library})
+    endif()
+  endforeach()
+  target_compile_definitions(${program} PRIVATE
+    SQUALL_SCENES_DIR="${PROJECT_SOURCE_DIR}/scenes" SQUALL_TEST_SCENES_DIR="${PROJECT_SOURCE_DIR}/tests/scenes")
+  target_precompile_headers(${program} PRIVATE <gtest/gtest.h> <Eigen/Core>)
+
+  if(NOT arg_BACKENDS)
+    squall_add_test_entry(${folder} ${program} "*" "${arg_LABELS}")
+    return()
+  endif()
+  foreach(backend ${arg_BACKENDS})
+    squall_add_test_entry(${folder}.${backend} ${program} "*/${backend}*" "${arg_LABELS};${backend}")
+    list(APPEND others "*/${backend}*")
+  endforeach()
+  list(JOIN others ":" others)
+  squall_add_test_entry(${folder}.between_backends ${program} "-${others}" "${arg_LABELS}")
+endfunction()
+
+# A filter that matches nothing would pass: GoogleTest's line about it makes the entry fail.
+function(squall_add_test_entry name program filter labels)
+  add_test(NAME ${name} COMMAND ${program} "--gtest_filter=${filter}" --gtest_brief=1)
+  set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT 600
+                       FAIL_REGULAR_EXPRESSION "0 tests from 0 test suites ran|SKIPPED")
+endfunction()
