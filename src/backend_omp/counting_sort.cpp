@@ -20,16 +20,11 @@ int share_begin(int total, int thread, int threads) { return static_cast<int>(st
 }  // namespace
 
 CountingSort::CountingSort(int cell_count, int threads)
-    : threads_(threads),
-      keys_(cell_count + 2),
+    : keys_(cell_count + 2),
       counts_(static_cast<std::size_t>(threads)),
       sums_(static_cast<std::size_t>(threads)),
       cell_start_(static_cast<std::size_t>(cell_count) + 3, 0) {
   for (auto& counts : counts_) counts.assign(static_cast<std::size_t>(keys_), 0);
-}
-
-CountingSort::Chunk CountingSort::chunk_of(int thread, int count) const {
-  return {share_begin(count, thread, threads_), share_begin(count, thread + 1, threads_)};
 }
 
 void CountingSort::count_cells(int thread, Chunk chunk, const Params<float>& p, std::span<const HeldGroup> held,
@@ -42,46 +37,50 @@ void CountingSort::count_cells(int thread, Chunk chunk, const Params<float>& p, 
   }
 }
 
-void CountingSort::sum_cells(int thread) {
+void CountingSort::sum_cells(int thread, int threads) {
   int sum = 0;
-  const int end = share_begin(keys_, thread + 1, threads_);
-  for (const auto& counts : counts_)
-    for (int key = share_begin(keys_, thread, threads_); key < end; ++key) sum += counts[static_cast<std::size_t>(key)];
+  const int end = share_begin(keys_, thread + 1, threads);
+  for (int t = 0; t < threads; ++t) {
+    const auto& counts = counts_[static_cast<std::size_t>(t)];
+    for (int key = share_begin(keys_, thread, threads); key < end; ++key) sum += counts[static_cast<std::size_t>(key)];
+  }
   sums_[static_cast<std::size_t>(thread)] = sum;
 }
 
-void CountingSort::place_cells(int thread, int count) {
+void CountingSort::place_cells(int thread, int threads, int count) {
   int next = 0;
   for (int before = 0; before < thread; ++before) next += sums_[static_cast<std::size_t>(before)];
-  const int end = share_begin(keys_, thread + 1, threads_);
-  for (int key = share_begin(keys_, thread, threads_); key < end; ++key) {
+  const int end = share_begin(keys_, thread + 1, threads);
+  for (int key = share_begin(keys_, thread, threads); key < end; ++key) {
     cell_start_[static_cast<std::size_t>(key)] = next;
-    for (auto& counts : counts_) {
+    for (int t = 0; t < threads; ++t) {
+      auto& counts = counts_[static_cast<std::size_t>(t)];
       const int here = counts[static_cast<std::size_t>(key)];
       counts[static_cast<std::size_t>(key)] = next;
       next += here;
     }
   }
-  if (thread == threads_ - 1) cell_start_[static_cast<std::size_t>(keys_)] = count;
+  if (thread == threads - 1) cell_start_[static_cast<std::size_t>(keys_)] = count;
 }
 
 void CountingSort::sort(TeamBarrier& barrier, int thread, int count, const Params<float>& p,
                         std::span<const HeldGroup> held, const Record* from, const std::uint32_t* from_ids, Record* to,
                         std::uint32_t* to_ids, int* cells) {
-  const Chunk chunk = chunk_of(thread, count);
+  const int threads = barrier.threads();
+  const Chunk chunk{share_begin(count, thread, threads), share_begin(count, thread + 1, threads)};
   count_cells(thread, chunk, p, held, from, from_ids, cells);
-  barrier.wait();
-  sum_cells(thread);
-  barrier.wait();
-  place_cells(thread, count);
-  barrier.wait();
+  barrier.wait(thread);
+  sum_cells(thread, threads);
+  barrier.wait(thread);
+  place_cells(thread, threads, count);
+  barrier.wait(thread);
   std::vector<int>& next = counts_[static_cast<std::size_t>(thread)];
   for (int i = chunk.begin; i < chunk.end; ++i) {
     const int place = next[static_cast<std::size_t>(cells[i])]++;
     to[place] = from[i];
     to_ids[place] = from_ids[i];
   }
-  barrier.wait();
+  barrier.wait(thread);
 }
 
 }  // namespace squall::openmp

@@ -29,7 +29,7 @@ Simd choose_simd(Simd wanted) {
   if (wanted == Simd::best) return available.back();
   if (std::find(available.begin(), available.end(), wanted) == available.end())
     throw DeviceError(std::string("this machine cannot run ") + to_string(wanted) + " code; it can run up to " +
-                     to_string(available.back()));
+                      to_string(available.back()));
   return wanted;
 }
 
@@ -50,6 +50,8 @@ class PhaseClock {
   std::map<std::string, double>& phases_;
   std::chrono::steady_clock::time_point last_;
 };
+
+constexpr std::size_t k_particles_per_thread = 256;  ///< fewer are done before another thread has woken up
 
 class OmpSolver final : public Solver {
  public:
@@ -113,8 +115,15 @@ class OmpSolver final : public Solver {
     PhaseClock clock(settings().profile, report.phase_ms);
     // The team must have as many threads as the sort has chunks, whatever OMP_DYNAMIC says.
     omp_set_dynamic(0);
-#pragma omp parallel num_threads(threads_)
-    for (const auto& substep : substeps) advance_substep(omp_get_thread_num(), substep, clock);
+    // More threads than the work is worth would only wait for each other. The bits do not depend on how many there are.
+    const auto worth = static_cast<int>(std::min<std::size_t>(count_ / k_particles_per_thread, 1024));
+    barrier_.resize(std::clamp(worth, 1, threads_));
+#pragma omp parallel num_threads(barrier_.threads())
+    {
+      const int thread = omp_get_thread_num();
+      barrier_.enter(thread);
+      for (const auto& substep : substeps) advance_substep(thread, substep, clock);
+    }
     fill_report(report);
   }
 
@@ -130,26 +139,27 @@ class OmpSolver final : public Solver {
         state_.data(), density_.data(), pressure_.data(), isolation_.data()};
     const int first_row = row_split(thread), end_row = row_split(thread + 1);
     passes_.density(context, first_row, end_row, lists_[t]);
-    barrier_.wait();
+    barrier_.wait(thread);
     if (thread == 0) clock.finish("density");
     if (!any_out_of_memory()) {
       if (substep.statistics != 0) passes_.statistics(context, first_row, end_row, lists_[t], results_[t]);
       passes_.forces(context, first_row, end_row, lists_[t], results_[t]);
     }
-    if (thread == threads_ - 1) copy_inactive();
-    barrier_.wait();
+    if (thread == barrier_.threads() - 1) copy_inactive();
+    barrier_.wait(thread);
     if (thread == 0) {
       std::swap(state_ids_, sorted_ids_);
       clock.finish("forces");
     }
-    barrier_.wait();
+    barrier_.wait(thread);
   }
 
   /// Particles freed now start with half a kick, like everything at the start: the other half is taken back.
   void release(int thread, const Substep<float>& substep) {
     const float half = substep.previous_dt * p_.one_half;
-    const std::size_t begin = count_ * static_cast<std::size_t>(thread) / static_cast<std::size_t>(threads_);
-    const std::size_t end = count_ * static_cast<std::size_t>(thread + 1) / static_cast<std::size_t>(threads_);
+    const auto team = static_cast<std::size_t>(barrier_.threads());
+    const std::size_t begin = count_ * static_cast<std::size_t>(thread) / team;
+    const std::size_t end = count_ * static_cast<std::size_t>(thread + 1) / team;
     for (int g = substep.held_count; g < substep.held_count + substep.released_count; ++g) {
       const HeldGroup& group = held_groups()[static_cast<std::size_t>(g)];
       for (std::size_t i = begin; i < end; ++i) {
@@ -159,16 +169,16 @@ class OmpSolver final : public Solver {
         state_[i].vz = nfma(half, substep.acceleration_z, state_[i].vz);
       }
     }
-    barrier_.wait();
+    barrier_.wait(thread);
   }
 
   /// Row at which a thread's share begins: the same split in every pass, by particle count.
   int row_split(int thread) const {
     const int rows = p_.cells_y * p_.cells_z;
     if (thread == 0) return 0;
-    if (thread == threads_) return rows;
+    if (thread == barrier_.threads()) return rows;
     const int* start = sort_.cell_start();
-    const auto target = static_cast<int>(std::int64_t{start[p_.cell_count]} * thread / threads_);
+    const auto target = static_cast<int>(std::int64_t{start[p_.cell_count]} * thread / barrier_.threads());
     int low = 0, high = rows;
     while (low < high) {
       const int middle = (low + high) / 2;

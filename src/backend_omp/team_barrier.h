@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cstdint>
 
+#include "backend_omp/thread_spread.h"
+
 namespace squall::openmp {
 
 /// A barrier for the threads of one team. It spins for some microseconds, the length of a well-balanced pass's
@@ -10,10 +12,18 @@ namespace squall::openmp {
 /// has one of its cores.
 class TeamBarrier {
  public:
-  explicit TeamBarrier(int threads) : threads_(threads) {}
+  explicit TeamBarrier(int threads) : threads_(threads), spread_(threads) {}
 
-  /// Returns when all threads of the team have called it; what they wrote before is then visible to all.
-  void wait() {
+  int threads() const { return threads_; }
+  /// Between frames: how many threads the next one has, at most as many as at the start.
+  void resize(int threads) { threads_ = threads; }
+
+  /// For each thread to call before its first wait() of a frame.
+  void enter(int thread) { spread_.settle(thread); }
+
+  /// Returns when all threads of the team have called it, each with its number; what they wrote before is then visible
+  /// to all.
+  void wait(int thread) {
     const std::uint32_t phase = phase_.load(std::memory_order_acquire);
     if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads_) {
       arrived_.store(0, std::memory_order_relaxed);
@@ -26,6 +36,7 @@ class TeamBarrier {
       pause();
     }
     while (phase_.load(std::memory_order_acquire) == phase) phase_.wait(phase, std::memory_order_acquire);
+    spread_.settle(thread);
   }
 
  private:
@@ -37,7 +48,8 @@ class TeamBarrier {
 #endif
   }
 
-  const int threads_;
+  int threads_;
+  ThreadSpread spread_;
   alignas(64) std::atomic<int> arrived_{0};
   alignas(64) std::atomic<std::uint32_t> phase_{0};
 };
