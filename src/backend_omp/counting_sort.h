@@ -20,7 +20,6 @@ class CountingSort {
 
   /// Sorts `count` records and ids from `from` to `to`. Called by every thread of the barrier's team, each with its
   /// number; waits there. Sorted on return, for every thread. `cells` has room for `count`.
-
   void sort(TeamBarrier& barrier, int thread, int count, const Params<float>& p, std::span<const HeldGroup> held,
             const Record* from, const std::uint32_t* from_ids, Record* to, std::uint32_t* to_ids, int* cells);
 
