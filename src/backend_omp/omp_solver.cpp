@@ -71,7 +71,9 @@ class OmpSolver final : public Solver {
     resize(0);
   }
 
-  SolverInfo info() const override { return {"omp", processor_name(), to_string(simd_), threads_, "", 0.0}; }
+  SolverInfo info() const override {
+    return {"omp", processor_name(), to_string(simd_), largest_team_ > 0 ? largest_team_ : threads_, "", 0.0};
+  }
 
  private:
   void do_load(const Particles& particles) override {
@@ -113,17 +115,18 @@ class OmpSolver final : public Solver {
     for (const auto& substep : plan.substeps) substeps.push_back(to_single(substep));
     results_.assign(static_cast<std::size_t>(threads_), {});
     PhaseClock clock(settings().profile, report.phase_ms);
-    // The team must have as many threads as the sort has chunks, whatever OMP_DYNAMIC says.
-    omp_set_dynamic(0);
     // More threads than the work is worth would only wait for each other. The bits do not depend on how many there are.
     const auto worth = static_cast<int>(std::min<std::size_t>(count_ / k_particles_per_thread, 1024));
-    barrier_.resize(std::clamp(worth, 1, threads_));
-#pragma omp parallel num_threads(barrier_.threads())
+#pragma omp parallel num_threads(std::clamp(worth, 1, threads_))
     {
+      // OMP_DYNAMIC, OMP_THREAD_LIMIT or a caller that is itself parallel may have given fewer.
+#pragma omp single
+      barrier_.resize(omp_get_num_threads());
       const int thread = omp_get_thread_num();
       barrier_.enter(thread);
       for (const auto& substep : substeps) advance_substep(thread, substep, clock);
     }
+    largest_team_ = std::max(largest_team_, barrier_.threads());
     fill_report(report);
   }
 
@@ -240,7 +243,8 @@ class OmpSolver final : public Solver {
     return particles;
   }
 
-  int threads_;
+  int threads_;           ///< asked for
+  int largest_team_ = 0;  ///< used so far
   Simd simd_;
   const Passes& passes_;
   Params<float> p_;

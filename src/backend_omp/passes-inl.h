@@ -12,8 +12,8 @@ namespace {
 /// Appends to `list` every candidate that lies within H (1 + 5e-6) of any particle of the block: a superset of the
 /// neighbours, in canonical order. What is beyond H adds exactly zero to every sum. Returns how many.
 template <class Pack>
-int find_neighbours(const PassContext& context, const Block& block, const Range* ranges, int range_count, Mask valid,
-                    Pack x, Pack y, Pack z, int* list) {
+int find_neighbours(const PassContext& context, const Range* ranges, int range_count, Mask valid, Pack x, Pack y,
+                    Pack z, int* list) {
   const Pack reach2(context.params->list_squared);
   int count = 0;
   for (int k = 0; k < range_count; ++k) {
@@ -24,7 +24,6 @@ int find_neighbours(const PassContext& context, const Block& block, const Range*
       count += any(valid & (squared_length(dx, dy, dz) < reach2)) ? 1 : 0;
     }
   }
-  (void)block;
   return count;
 }
 
@@ -54,7 +53,7 @@ void density_of_block(const PassContext& context, const Block& block, NeighbourL
   const Pack x = gather<Pack>(context.sorted, block.begin, &Record::x);
   const Pack y = gather<Pack>(context.sorted, block.begin, &Record::y);
   const Pack z = gather<Pack>(context.sorted, block.begin, &Record::z);
-  const int count = find_neighbours(context, block, ranges, range_count, valid, x, y, z, list);
+  const int count = find_neighbours(context, ranges, range_count, valid, x, y, z, list);
   list[-1] = count;
   neighbours.used += static_cast<std::size_t>(count) + 1;
 

@@ -63,6 +63,8 @@ std::string_view take_line(std::string_view& rest) {
 
 Particles parse_particle_csv(const std::string& text, const std::string& path) {
   std::string_view rest = text;
+  constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets write it
+  if (rest.starts_with(k_byte_order_mark)) rest.remove_prefix(k_byte_order_mark.size());
   const Line header{path, 1, take_line(rest)};
   if (header.text != k_header) header.fail(0, "the first line must be the header " + std::string(k_header));
   Particles particles;

@@ -27,7 +27,7 @@ struct FrameReport {
   std::int64_t clamps = 0;           ///< times a particle was put back behind a wall in this frame
   double max_speed = 0.0;            ///< m/s, over the frame
   double max_acceleration = 0.0;     ///< m/s^2, over the frame
-  bool time_step_limited = false;    ///< k_max_substeps was reached: lower the speeds, or raise the frame rate
+  bool time_step_limited = false;    ///< k_max_substeps left a step too long for the speeds that were met
 
   double density_error_mean = 0.0;  ///< mean of max(rho/rho0 - 1, 0) over active particles, last sub-step
   double density_error_max = 0.0;

@@ -1,9 +1,12 @@
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "core/errors.h"
 #include "core/fill.h"
+#include "core/frame_plan.h"
+#include "core/rain.h"
 #include "core/scene.h"
 #include "core/scene_keys.h"
 
@@ -39,6 +42,7 @@ class Checker {
   void check() const {
     check_ranges(scene_, locate_);
     check_version();
+    check_time();
     check_solver();
     check_container();
     for_each("container.motion", scene_.container.motions, &Checker::check_motion);
@@ -68,6 +72,15 @@ class Checker {
       fail({"solver"}, "xsph",
            "xsph = " + number_text(scene_.solver.xsph) + " is not in this version; remove it or write 0");
     if (!scene_.gauges.empty()) fail({"gauge", 1}, "", "[[gauge]] is not in this version; remove it");
+  }
+
+  void check_time() const {
+    const double needed = 1.0 / (scene_.time.frame_rate_hz * scene_.solver.dt_max_s);
+    if (needed > k_max_substeps)
+      fail({"time"}, "frame_rate_hz",
+           "frame_rate_hz = " + number_text(scene_.time.frame_rate_hz) + " needs " + number_text(std::ceil(needed)) +
+               " sub-steps of dt_max_s = " + number_text(scene_.solver.dt_max_s) + " per frame; allowed are " +
+               std::to_string(k_max_substeps) + "; raise frame_rate_hz or dt_max_s");
   }
 
   void check_solver() const {
@@ -187,11 +200,13 @@ class Checker {
     check_extent(section, rain.area_min_m, rain.area_max_m, "area_max_m");
     check_rain_area(section, rain);
     const double top = scene_.container.max_m.y();
-    if (rain.height_m < top || rain.height_m > ceiling_.y())
+    // Drops are released along one frame's fall above the height.
+    const double highest = ceiling_.y() - terminal_speed(rain.drop_diameter_mm) / scene_.time.frame_rate_hz;
+    if (rain.height_m < top || rain.height_m > highest)
       fail(section, "height_m",
            "height_m = " + number_text(rain.height_m) + " in " + section.text() +
                " is out of range; allowed is the container's top, " + number_text(top) + ", to " +
-               number_text(ceiling_.y()) + " (ten container heights above)");
+               number_text(highest) + " (ten container heights above, less a drop's fall in one frame)");
     if (!(rain.start_s < rain.stop_s))
       fail(section, "stop_s",
            "stop_s = " + number_text(rain.stop_s) + " in " + section.text() +

@@ -137,7 +137,7 @@ void Solver::finish_report(const FramePlan& plan) {
   report_.dt_s = plan.dt;
   report_.compute_ms = report_.frame_ms - report_.upload_ms - report_.readback_ms;
   report_.particles = static_cast<std::int64_t>(count_);
-  report_.time_step_limited = plan.limited;
+  report_.time_step_limited = plan.limited && plan.dt > time_step_limit(scene_, settings_.pressure, report_.max_speed);
   report_.container_displacement =
       container_displacement(scene_, static_cast<double>(plan.frame + 1) / scene_.time.frame_rate_hz);
 }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/frame_plan.h"
 #include "core/fill.h"
+#include "core/frame_plan.h"
 #include "core/timed_groups.h"
 
 namespace squall {

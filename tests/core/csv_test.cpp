@@ -34,6 +34,7 @@ TEST(ParticleCsv, ReadsNumbersExactlyAndCountsIds) {
 
 TEST(ParticleCsv, TakesWindowsLinesAndAMissingLastNewline) {
   EXPECT_EQ(parse_particle_csv("x,y,z,vx,vy,vz\r\n1,2,3,4,5,6\r\n", "p.csv").size(), 1u);
+  EXPECT_EQ(parse_particle_csv("\xEF\xBB\xBF" + k_header + "1,2,3,4,5,6\n", "p.csv").size(), 1u);
   EXPECT_EQ(parse_particle_csv(k_header + "1,2,3,4,5,6", "p.csv").size(), 1u);
   EXPECT_EQ(parse_particle_csv(k_header, "p.csv").size(), 0u);
 }

@@ -1,0 +1,67 @@
+// The parallel counting sort against std::stable_sort, whatever the number of threads.
+
+#include "backend_omp/counting_sort.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <tuple>
+
+#include "core/frame_plan.h"
+#include "grid.h"
+#include "support/scenes.h"
+
+namespace squall::test {
+namespace {
+
+using openmp::Record;
+
+class OmpSort : public testing::TestWithParam<std::tuple<int, int>> {};
+
+INSTANTIATE_TEST_SUITE_P(SizesAndThreads, OmpSort,
+                         testing::Combine(testing::Values(0, 1, 2, 63, 64, 65, 1000, (1 << 20) + 1),
+                                          testing::Values(1, 2, 3, 7)));
+
+TEST_P(OmpSort, IsTheStableSort) {
+  const auto [count, threads] = GetParam();
+  const Params<float> p = to_single(make_params(empty_tank(), Pressure::wcsph));
+  const std::vector<HeldGroup> held = {{0, 20}};
+  std::mt19937 random(static_cast<unsigned>(count));
+  std::uniform_real_distribution<float> place(-0.1f, 0.9f);
+  std::vector<Record> records(static_cast<std::size_t>(count));
+  std::vector<std::uint32_t> ids(records.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const bool lost = i % 97 == 5;
+    records[i] = {lost ? SQUALL_LOST_COORDINATE : place(random), place(random), place(random), 0, 0, 0, 0, 0};
+  }
+
+  openmp::CountingSort sort(p.cell_count, threads);
+  openmp::TeamBarrier barrier(threads);
+  std::vector<Record> sorted(records.size());
+  std::vector<std::uint32_t> sorted_ids(ids.size());
+  std::vector<int> cells(ids.size());
+#pragma omp parallel num_threads(threads)
+  sort.sort(barrier, omp_get_thread_num(), count, p, held, records.data(), ids.data(), sorted.data(), sorted_ids.data(),
+            cells.data());
+
+  const auto key = [&](std::uint32_t id) {
+    const Record& record = records[id];
+    if (record.x == SQUALL_LOST_COORDINATE) return p.cell_count + 1;
+    return id < 20 ? p.cell_count : cell_of(&p, record.x, record.y, record.z);
+  };
+  std::vector<std::uint32_t> expected = ids;
+  std::stable_sort(expected.begin(), expected.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  ASSERT_EQ(sorted_ids, expected);
+  for (std::size_t i = 0; i < sorted.size(); ++i) ASSERT_EQ(sorted[i].x, records[expected[i]].x);
+  for (int cell = 0; cell <= p.cell_count + 2; ++cell) {
+    const auto first = std::partition_point(expected.begin(), expected.end(), [&](auto id) { return key(id) < cell; });
+    ASSERT_EQ(sort.cell_start()[cell], first - expected.begin()) << "cell " << cell;
+  }
+}
+
+}  // namespace
+}  // namespace squall::test
