@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "app/plans.h"
 #include "app/progress.h"
 #include "app/result_output.h"
+#include "app/targets.h"
 #include "core/errors.h"
 #include "harness/compare.h"
 
@@ -22,9 +24,7 @@ namespace squall::app {
 
 namespace {
 
-void write_frames(const Options& options, const Workload& workload, const harness::Comparison& comparison) {
-  if (options.out.empty()) return;
-  OutputFolder folder(options.out, workload);
+void write_frames(const harness::Comparison& comparison, OutputFolder& folder) {
   for (std::size_t i = 0; i < comparison.rows.size(); ++i)
     for (const auto& frame : comparison.frames[i]) folder.add_frame(comparison.rows[i].plan.label, frame);
   folder.finish();
@@ -71,6 +71,10 @@ int command_compare(const Options& options) {
   if (plans.plans.empty()) throw DeviceError("no backend or device to compare can run; see squall devices");
 
   const Interrupt interrupt;
+  protect_inputs(options, workload);
+  std::optional<OutputFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out, workload);
+  check_json_target(options);
   const auto make = [&](const harness::RunPlan& plan) {
     return make_solver(plan.backend, workload.scene, plan.settings);
   };
@@ -84,9 +88,10 @@ int command_compare(const Options& options) {
     });
   }
   print_notes(notes_on_length(options, plans, comparison, interrupt.requested()), options.quiet);
-  write_frames(options, workload, comparison);
+  if (!options.json_alone())
+    std::cout << headline(workload) << "\n" << comparison_text(comparison, options.budget_ms) << std::flush;
   write_result(options, workload, backends, comparison.rows, comparison.agreement);
-  if (!options.json_alone()) std::cout << headline(workload) << "\n" << comparison_text(comparison, options.budget_ms);
+  if (folder) write_frames(comparison, *folder);
   return interrupt.requested() ? k_exit_interrupted : exit_code_of(options, comparison.rows, comparison.agreement);
 }
 

@@ -49,8 +49,8 @@ harness::Json devices_json(const std::vector<BackendInfo>& backends) {
 
 int command_devices(const Options& options) {
   const auto backends = list_backends();
+  if (!options.json_alone()) std::cout << devices_text(backends) << std::flush;
   write_json(options, devices_json(backends));
-  if (!options.json_alone()) std::cout << devices_text(backends);
   return k_exit_fine;
 }
 

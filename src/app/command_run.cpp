@@ -13,6 +13,7 @@
 #include "app/progress.h"
 #include "app/result_output.h"
 #include "app/row_text.h"
+#include "app/targets.h"
 #include "harness/run.h"
 
 namespace squall::app {
@@ -40,8 +41,10 @@ int command_run(const Options& options) {
   print_notes(scene_notes(workload.scene), options.quiet);
 
   const Interrupt interrupt;
+  protect_inputs(options, workload);
   std::optional<OutputFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, workload);
+  check_json_target(options);
   const harness::SolverFactory make = [&](const harness::RunPlan& what) {
     return make_solver(what.backend, workload.scene, what.settings);
   };
@@ -57,9 +60,9 @@ int command_run(const Options& options) {
     });
     row.phase_ms = std::move(phases);
   }
-  if (folder) folder->finish();
+  if (!options.json_alone()) std::cout << run_result_text(options, workload, row) << std::flush;
   write_result(options, workload, backends, {row}, std::nullopt);
-  if (!options.json_alone()) std::cout << run_result_text(options, workload, row);
+  if (folder) folder->finish();
   return interrupt.requested() ? k_exit_interrupted : exit_code_of(options, {row}, std::nullopt);
 }
 

@@ -4,24 +4,30 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/option_parser.h"
+#include "app/standard_streams.h"
 #include "core/errors.h"
 
 namespace {
 
 using namespace squall::app;
 
-int run_command(int argc, char** argv) {
-  const auto options = parse_options(argc, argv);
-  if (!options) return k_exit_fine;
-  switch (options->command) {
+int run_command(const Options& options) {
+  switch (options.command) {
     case Command::devices:
-      return command_devices(*options);
+      return command_devices(options);
     case Command::run:
-      return command_run(*options);
+      return command_run(options);
     case Command::compare:
-      return command_compare(*options);
+      return command_compare(options);
   }
   return k_exit_internal;
+}
+
+int parse_and_run(int argc, char** argv) {
+  const auto options = parse_options(argc, argv);
+  const int code = options ? run_command(*options) : k_exit_fine;
+  finish_stdout();
+  return code;
 }
 
 int complain(const char* text, int code) {
@@ -33,7 +39,8 @@ int complain(const char* text, int code) {
 
 int main(int argc, char** argv) {
   try {
-    return run_command(argc, argv);
+    reserve_standard_streams();
+    return parse_and_run(argc, argv);
   } catch (const UsageError& error) {
     return complain((std::string(error.what()) + "\nsee squall --help, or squall COMMAND --help").c_str(),
                     k_exit_usage);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
+#include <iostream>
 #include <numbers>
 
 #include "app/terminal.h"
@@ -41,7 +41,7 @@ std::vector<std::string> scene_notes(const Scene& scene) {
 
 void print_notes(const std::vector<std::string>& notes, bool quiet) {
   if (quiet) return;
-  for (const auto& note : notes) fmt::print(stderr, "note: {}\n", note);
+  for (const auto& note : notes) std::cerr << "note: " << note << "\n";
 }
 
 }  // namespace squall::app

@@ -9,8 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "app/checks.h"
+#include "app/contradictions.h"
 #include "app/exit_codes.h"
+#include "app/notes.h"
 #include "build_info.h"
+#include "core/scene_keys.h"
 
 namespace squall::app {
 
@@ -34,10 +38,10 @@ std::string variable_of(std::string option) {
   return "SQUALL_" + option;
 }
 
-/// Every option has its variable.
+/// Every option has its variable, and a value.
 template <class Value>
 CLI::Option* add(CLI::App& command, const std::string& name, Value& value, const std::string& help) {
-  return command.add_option(name, value, help)->envname(variable_of(name));
+  return command.add_option(name, value, help)->envname(variable_of(name))->check(not_empty());
 }
 
 void add_later_options(CLI::App& command) {
@@ -63,10 +67,12 @@ void add_water_options(CLI::App& command, Options& options, Raw& raw) {
   command.add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
   add(command, "--pressure", raw.pressure, "mueller or wcsph; else what the scene says, else wcsph")->type_name("NAME");
   add(command, "--particles", options.particles, "Change the spacing so that about N particles result")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 31))
+      ->check(CLI::Range(std::int64_t{1}, scene_keys::k_max_particles))
       ->type_name("N");
-  add(command, "--dt-max", options.dt_max_s, "Longest sub-step [s]; else the scene's")->type_name("S");
-  add(command, "--seed", options.seed, "Of the rain (1)")->type_name("N");
+  add(command, "--dt-max", options.dt_max_s, "Longest sub-step [s]; else the scene's")
+      ->check(within(1e-7, 1.0))
+      ->type_name("S");
+  add(command, "--seed", options.seed, "Of the rain (1)")->check(unsigned_number())->type_name("N");
 }
 
 void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
@@ -76,11 +82,9 @@ void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
   add(command, "--precision", raw.precision, "reference: single or double (its default); the others are single")
       ->type_name("NAME");
   add(command, "--frames", options.frames, "Frames to measure")->check(CLI::Range(1, 10'000'000))->type_name("N");
-  add(command, "--seconds", options.seconds, "The same as simulated time [s]")
-      ->check(CLI::PositiveNumber)
-      ->type_name("S");
+  add(command, "--seconds", options.seconds, "The same as simulated time [s]")->check(positive())->type_name("S");
   add(command, "--budget-ms", options.budget_ms, "Exit 7 if the 95th percentile of frame time exceeds this")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->type_name("F");
   add(command, "--out", options.out, "Folder for scene.toml, frames.csv and more")->type_name("DIR");
   add(command, "--format", raw.format, "Shape of the JSON: squall or google-benchmark (for its compare.py)")
@@ -144,8 +148,17 @@ void settle_length(int argc, char** argv, Options& options) {
     options.frames.reset();
 }
 
+/// Asking twice for a thread count gives one run.
+std::vector<int> without_repeats(const std::vector<int>& values) {
+  std::vector<int> result;
+  for (const int value : values)
+    if (std::find(result.begin(), result.end(), value) == result.end()) result.push_back(value);
+  return result;
+}
+
 void understand(const Raw& raw, Options& options) {
   for (const auto& text : raw.backends) options.backends.push_back(parse_backend(text));
+  options.threads = without_repeats(options.threads);
   for (const auto& text : raw.readbacks) options.readbacks.push_back(parse_readback(text));
   if (!raw.simd.empty()) options.simd = parse_simd(raw.simd);
   if (!raw.precision.empty()) options.precision = parse_precision(raw.precision);
@@ -209,6 +222,9 @@ std::optional<Options> parse_options(int argc, char** argv) {
   if (!*devices) refuse_later_options(*run ? *run : *compare);
   understand(raw, options);
   settle_length(argc, argv, options);
+  const auto is_flag = [&](const std::string& option) { return on_command_line(argc, argv, option); };
+  print_notes(drop_contradicted_variables(is_flag, options), options.quiet);
+  check_contradictions(options);
   return options;
 }
 

@@ -2,18 +2,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/errors.h"
 #include "harness/measures.h"
 #include "harness/results_csv.h"
 
 namespace squall::app {
 
+namespace {
+
+bool is_frame_file(const std::string& name) {
+  const std::string head = "frame_", tail = ".csv";
+  constexpr std::size_t k_digits = 6;  // at least: longer runs need more
+  if (name.size() < head.size() + k_digits + tail.size() || name.rfind(head, 0) != 0) return false;
+  const auto end = name.end() - static_cast<std::ptrdiff_t>(tail.size());
+  return std::string(end, name.end()) == tail && std::all_of(name.begin() + static_cast<std::ptrdiff_t>(head.size()),
+                                                             end, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> OutputFolder::own_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files{folder / "scene.toml", folder / "frames.csv", folder / "series.csv"};
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
+    if (is_frame_file(entry->path().filename().string())) files.push_back(entry->path());
+  return files;
+}
+
 OutputFolder::OutputFolder(const std::string& path, const Workload& workload) : path_(path) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
+  for (const auto& file : own_files(path_)) std::filesystem::remove(file, error);
   auto scene = open("scene.toml");
-  scene << print_workload(workload);
+  scene << print_workload(workload) << std::flush;
   check(scene, path_ / "scene.toml");
   frames_ = open("frames.csv");
   harness::write_frames_header(frames_);

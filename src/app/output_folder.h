@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "app/workload.h"
 #include "harness/run.h"
@@ -10,10 +11,13 @@
 namespace squall::app {
 
 /// The folder of --out: scene.toml, frames.csv, series.csv and, with --save-every, frame_000000.csv. Made if missing;
-/// files of these names are replaced. Throws InputError for what cannot be written.
+/// files of these names from an earlier run are removed. Throws InputError for what cannot be written.
 class OutputFolder {
  public:
   OutputFolder(const std::string& path, const Workload& workload);
+
+  /// Paths in this folder that are the names above, whether there or not; of frame_000000.csv only those there.
+  static std::vector<std::filesystem::path> own_files(const std::filesystem::path& folder);
 
   /// Writes what follows from the frame that the run has just counted.
   void after_frame(const harness::Run& run, int save_every);

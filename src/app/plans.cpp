@@ -97,17 +97,6 @@ std::string default_backend(const Options& options, const std::vector<BackendInf
   return "omp";
 }
 
-void check_run(const Options& options, const std::string& backend) {
-  if (!options.device.empty() && backend != "opencl")
-    throw UsageError(fmt::format(
-        "--device picks an OpenCL device; {} has none to pick: leave it out or add --backend opencl", backend));
-  if (options.simd && backend == "reference")
-    throw UsageError(fmt::format("--simd belongs to the backends omp and opencl; {} has no such choice", backend));
-  if (!options.threads.empty() && options.threads.front() != 1 && backend == "reference")
-    throw UsageError("backend reference has one thread; leave --threads out or pick another --backend");
-  refuse_double(options, backend == "reference");
-}
-
 /// Thread counts to compare omp with: as asked, else 1 and all.
 std::vector<int> omp_threads(const Options& options, const BackendInfo& omp) {
   if (!options.threads.empty()) return options.threads;
@@ -189,7 +178,7 @@ class ComparisonPlanner {
 
 RunPlan plan_run(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
   const std::string name = default_backend(options, backends);
-  check_run(options, name);
+  refuse_double(options, name == "reference");
   const BackendInfo& backend = find_backend(backends, name);
   if (const auto problem = problem_of(backend); !problem.empty())
     throw DeviceError("backend " + name + " cannot run: " + problem);

@@ -26,7 +26,8 @@ harness::Context context_of(const std::vector<BackendInfo>& backends, const std:
 
 void write_json(const Options& options, const harness::Json& json) {
   if (options.json.empty()) return;
-  const std::string text = json.dump(2) + "\n";
+  // A scene's file name need not be UTF-8.
+  const std::string text = json.dump(2, ' ', false, harness::Json::error_handler_t::replace) + "\n";
   if (options.json_alone()) {
     std::cout << text << std::flush;
     return;

@@ -50,15 +50,26 @@ int substep_count(const Scene& scene, Pressure pressure, const Clock& clock, dou
   return std::max(needed, clock.previous_substeps - std::max(1, clock.previous_substeps / 10));
 }
 
+/// Explicit viscosity is stable for dt < 2/lambda_max; on a lattice at H = 2dx lambda_max is 15.8 nu/H^2 for Müller's
+/// Laplacian and 58.9 nu/H^2 for the central form of wcsph, whose force along the line of centres is five times as
+/// stiff (docs/physics.md). A tenth is left for other arrangements.
+double viscous_factor(Pressure pressure) { return pressure == Pressure::wcsph ? 0.03 : 0.1; }
+
+/// Physical viscosity and what artificial viscosity amounts to: alpha (H/2) c/(2(d + 2)), d = 3 [m^2/s].
+double effective_viscosity(const Scene& scene, Pressure pressure) {
+  const double physical = scene.fluid.viscosity_m2_s.value_or(0.0);
+  if (pressure != Pressure::wcsph) return physical;
+  return physical + scene.solver.artificial_viscosity * 0.5 * scene.support_radius() * scene.speed_of_sound() / 10.0;
+}
+
 }  // namespace
 
 double time_step_limit(const Scene& scene, Pressure pressure, double speed_bound) {
   const double support = scene.support_radius();
   const double signal = pressure == Pressure::wcsph ? scene.speed_of_sound() : std::sqrt(scene.solver.stiffness_m2_s2);
   double limit = std::min(scene.solver.dt_max_s, scene.solver.cfl * support / (signal + 1.2 * speed_bound));
-  // Explicit viscosity is stable below 0.115 H^2/nu (docs/physics.md).
-  const double viscosity = scene.fluid.viscosity_m2_s.value_or(0.0);
-  if (viscosity > 0.0) limit = std::min(limit, 0.1 * support * support / viscosity);
+  const double viscosity = effective_viscosity(scene, pressure);
+  if (viscosity > 0.0) limit = std::min(limit, viscous_factor(pressure) * support * support / viscosity);
   return limit;
 }
 

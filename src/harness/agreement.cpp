@@ -50,6 +50,27 @@ bool is_strict(const Run& run) {
   return run.plan().strict && run.plan().settings.precision == Precision::single_precision;
 }
 
+/// Index of the frame that a run did last, from 0.
+std::uint64_t last_frame(const Run& run) { return run.state().clock.frame - 1; }
+
+std::string frames_text(int count) { return fmt::format("{} frame{}", count, count == 1 ? "" : "s"); }
+
+std::string who_stopped(const std::vector<const Run*>& runs) {
+  std::string list;
+  std::size_t count = 0;
+  bool together = true;
+  for (const Run* run : runs) {
+    if (run->error().empty()) continue;
+    ++count;
+    together = together && run->steps_done() == runs.front()->steps_done();
+    list += fmt::format("{}{} after {}", list.empty() ? "" : ", ", run->plan().label, frames_text(run->steps_done()));
+  }
+  if (count == 0) return {};
+  if (count == runs.size() && together)
+    return "; all failed and stopped after " + frames_text(runs.front()->steps_done());
+  return "; failed and stopped: " + list;
+}
+
 }  // namespace
 
 std::optional<Difference> difference_between(const Particles& a, const Particles& b, double spacing) {
@@ -74,17 +95,23 @@ double rounding_tolerance_dx(const Scene& scene, int substeps) {
 }
 
 void AgreementCheck::after_round(const std::vector<const Run*>& runs) {
-  std::vector<const Run*> strict, tolerant;
-  for (const Run* run : runs) {
-    if (run->plan().backend == "reference" || !run->error().empty()) continue;
-    (is_strict(*run) ? strict : tolerant).push_back(run);
-  }
-  strict_runs_ = std::max(strict_runs_, strict.size());
-  tolerant_runs_ = std::max(tolerant_runs_, tolerant.size());
-  if (strict.size() > 1) compare_bits(strict);
-  if (rounds_ == 0 && !strict.empty())
-    for (const Run* run : tolerant) compare_by_tolerance(*strict.front(), *run);
   ++rounds_;
+  std::vector<const Run*> taking_part, strict, tolerant;
+  for (const Run* run : runs) {
+    if (run->plan().backend == "reference") continue;
+    taking_part.push_back(run);
+    if (run->steps_done() == rounds_) (is_strict(*run) ? strict : tolerant).push_back(run);
+  }
+  stopped_ = who_stopped(taking_part);
+  if (strict.size() > 1) {
+    ++frames_compared_;
+    strict_runs_ = std::max(strict_runs_, strict.size());
+    compare_bits(strict);
+    compare_failures(strict);
+  }
+  if (rounds_ > 1 || strict.empty()) return;
+  tolerant_runs_ = tolerant.size();
+  for (const Run* run : tolerant) compare_by_tolerance(*strict.front(), *run);
 }
 
 void AgreementCheck::compare_bits(const std::vector<const Run*>& strict) {
@@ -95,11 +122,22 @@ void AgreementCheck::compare_bits(const std::vector<const Run*>& strict) {
                                   [&](const Run* run) { return run->state_hash() != expected.state_hash(); });
   if (other == strict.end()) return;
   agreement_.bitwise = agreement_.agree = false;
-  agreement_.first_difference_frame = expected.state().clock.frame - 1;
+  agreement_.first_difference_frame = last_frame(expected);
   agreement_.difference =
       difference_between(expected.state().particles, (*other)->state().particles, expected.scene().fluid.spacing_m);
   first_label_ = expected.plan().label;
   second_label_ = (*other)->plan().label;
+}
+
+void AgreementCheck::compare_failures(const std::vector<const Run*>& strict) {
+  const auto has_failed = [](const Run* run) { return !run->error().empty(); };
+  const auto failed = std::find_if(strict.begin(), strict.end(), has_failed);
+  const auto sound = std::find_if_not(strict.begin(), strict.end(), has_failed);
+  if (failed == strict.end() || sound == strict.end() || !failed_in_one_.empty()) return;
+  agreement_.bitwise = agreement_.agree = false;
+  if (!agreement_.first_difference_frame) agreement_.first_difference_frame = last_frame(**failed);
+  failed_in_one_ = fmt::format("; {} failed in frame {} where {} did not", (*failed)->plan().label,
+                               last_frame(**failed), (*sound)->plan().label);
 }
 
 void AgreementCheck::compare_by_tolerance(const Run& expected, const Run& run) {
@@ -117,9 +155,9 @@ void AgreementCheck::compare_by_tolerance(const Run& expected, const Run& run) {
 Agreement AgreementCheck::result() const {
   Agreement result = agreement_;
   if (!result.bitwise) {
-    result.verdict = "nothing to compare bit by bit: fewer than two strict single-precision runs";
-  } else if (*result.bitwise) {
-    result.verdict = fmt::format("same bits in {} runs after each of {} frames", strict_runs_, rounds_);
+    result.verdict = "nothing to compare bit by bit: fewer than two strict single-precision runs did a frame";
+  } else if (first_label_.empty()) {
+    result.verdict = fmt::format("same bits in {} runs after each of {}", strict_runs_, frames_text(frames_compared_));
   } else {
     result.verdict = fmt::format("{} and {} differ first after frame {}", first_label_, second_label_,
                                  *result.first_difference_frame);
@@ -127,9 +165,10 @@ Agreement AgreementCheck::result() const {
       result.verdict += fmt::format(", particle {}: up to {:.3g} dx and {:.3g} m/s", result.difference->particle,
                                     result.difference->max_position_error_dx, result.difference->max_velocity_error);
   }
-  result.verdict += out_of_tolerance_;
-  if (tolerant_runs_ > 0 && strict_runs_ > 0 && out_of_tolerance_.empty())
+  result.verdict += failed_in_one_ + out_of_tolerance_;
+  if (tolerant_runs_ > 0 && out_of_tolerance_.empty())
     result.verdict += fmt::format("; {} run(s) within tolerance after the first frame", tolerant_runs_);
+  result.verdict += stopped_;
   return result;
 }
 

@@ -93,7 +93,6 @@ class Comparer {
     Row row;
     row.plan = plans_[i];
     row.solver.backend = plans_[i].backend;
-    row.solver.device = plans_[i].settings.device;
     row.error = failures_[i];
     row.device_failed = true;
     return row;

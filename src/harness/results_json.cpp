@@ -18,6 +18,8 @@ Json tail(const Tail& value) {
           {"max", number(value.max)}};
 }
 
+bool has_numbers(const Row& row) { return row.error.empty() && row.frames > 0; }
+
 Json identity(const Row& row) {
   return {{"label", row.plan.label},
           {"backend", row.plan.backend},
@@ -65,12 +67,12 @@ void add_water(const Row& row, Json& json) {
 
 Json run_json(const Row& row) {
   Json json = identity(row);
-  if (row.error.empty()) {
+  if (has_numbers(row)) {
     add_times(row, json);
     add_water(row, json);
-  } else {
-    json["error"] = row.error;
   }
+  if (!row.error.empty()) json["error"] = row.error;
+  if (row.interrupted) json["interrupted"] = true;
   json["clamps"] = row.clamps;
   json["lost_particles"] = row.lost_particles;
   json["state_hash"] = hash_text(row.state_hash);
@@ -162,12 +164,12 @@ Json to_google_benchmark(const Context& context, const SceneInfo& scene, const s
     Json entry{{"name", name},     {"run_name", name},      {"run_type", "iteration"},
                {"repetitions", 1}, {"repetition_index", 0}, {"threads", row.solver.threads}};
     entry["iterations"] = row.frames;
-    entry["real_time"] = number(row.error.empty() ? row.frame_ms.median : 0.0);
-    entry["cpu_time"] = number(row.error.empty() ? row.cpu_ms_mean : 0.0);
+    entry["real_time"] = number(has_numbers(row) ? row.frame_ms.median : 0.0);
+    entry["cpu_time"] = number(has_numbers(row) ? row.cpu_ms_mean : 0.0);
     entry["time_unit"] = "ms";
-    if (!row.error.empty()) {
+    if (!has_numbers(row)) {
       entry["error_occurred"] = true;
-      entry["error_message"] = row.error;
+      entry["error_message"] = row.error.empty() ? "ended before the first counted frame" : row.error;
     }
     json["benchmarks"].push_back(entry);
   }

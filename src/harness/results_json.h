@@ -24,7 +24,8 @@ struct SceneInfo {
 };
 
 /// The shape that every measuring command writes (docs/results.md): {schema, context, scene, runs, agreement}. No
-/// number is infinite or NaN: such a value is null. An error row has no measured numbers, but `error`.
+/// number is infinite or NaN: such a value is null. An error row has no measured numbers, but `error`; a run
+/// that ended before its planned frames says `interrupted`, and without counted frames it has no numbers either.
 Json to_json(const Context& context, const SceneInfo& scene, const std::vector<Row>& rows,
              const std::optional<Agreement>& agreement);
 

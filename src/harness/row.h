@@ -45,6 +45,7 @@ struct Row {
   SolverInfo solver;
   std::string error;  ///< why the end state is wrong; empty if it is not. Numbers of such a row mean nothing
   bool device_failed = false;
+  bool interrupted = false;  ///< ended before its planned frames, without an error
 
   std::int64_t particles = 0;
   int frames = 0;  ///< counted

@@ -1,5 +1,7 @@
 #include "harness/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -17,6 +19,14 @@ double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOC
 
 Delivery delivery_of(const Settings& settings) {
   return settings.readback == Readback::none ? Delivery::nothing : Delivery::positions;
+}
+
+std::string too_fast(const FrameReport& report, double frame_rate_hz) {
+  return fmt::format(
+      "unstable after frame {}: {} sub-steps of {:.3g} s are too long at {:.3g} m/s; a frame of {:.3g} s would need "
+      "more "
+      "than {} sub-steps: raise frame_rate_hz or cfl, or lower speed_of_sound_m_s, viscosity_m2_s or the speeds",
+      report.frame, report.substeps, report.dt_s, report.max_speed, 1.0 / frame_rate_hz, k_max_substeps);
 }
 
 void check_plan(const RunPlan& plan) {
@@ -42,6 +52,7 @@ void Run::step() {
   try {
     if (plan_.rewind && plan_.warm_up_frames > 0 && steps_done_ == plan_.warm_up_frames) rewind();
     advance();
+    if (!error_.empty() && plan_.rewind && steps_done_ <= plan_.warm_up_frames) give_up_warm_up();
   } catch (const DeviceError& failure) {
     error_ = failure.what();
     device_failed_ = true;
@@ -52,6 +63,11 @@ void Run::rewind() {
   solver_->restore(start_);
   state_ = start_;
   energy_in_ = total_energy(scene(), start_.particles);
+}
+
+void Run::give_up_warm_up() {
+  error_.clear();
+  steps_done_ = plan_.warm_up_frames;
 }
 
 void Run::advance() {
@@ -76,16 +92,15 @@ void Run::take_state() {
 
 void Run::check_end_state(const FrameReport& report) {
   const auto count = static_cast<std::int64_t>(state_.particles.size());
+  const auto after = fmt::format("after frame {}", report.frame);
   if (!is_finite(state_.particles))
-    error_ = "a position or velocity is not finite";
-  else if (report.lost > 0)
-    error_ = std::to_string(report.lost) + " of " + std::to_string(count) + " particles are lost";
-  else if (report.particles != count)
-    error_ = "the report counts " + std::to_string(report.particles) + " particles, the state " + std::to_string(count);
+    error_ = fmt::format("a position or velocity is not finite {}", after);
   else if (report.time_step_limited)
-    error_ = "unstable: a frame needs more than " + std::to_string(k_max_substeps) + " sub-steps at speeds up to " +
-             std::to_string(report.max_speed) + " m/s; raise dt_max_s or frame_rate_hz";
-  if (!error_.empty()) error_ += " after frame " + std::to_string(state_.clock.frame);
+    error_ = too_fast(report, scene().time.frame_rate_hz);
+  else if (report.lost > 0)
+    error_ = fmt::format("{} of {} particles are lost {}", report.lost, count, after);
+  else if (report.particles != count)
+    error_ = fmt::format("the report counts {} particles {}, the state {}", report.particles, after, count);
 }
 
 Row Run::row() const {
@@ -94,6 +109,7 @@ Row Run::row() const {
   row.solver = solver_->info();
   row.error = error_;
   row.device_failed = device_failed_;
+  row.interrupted = !done();
   row.particles = static_cast<std::int64_t>(state_.particles.size());
   row.lost_particles = solver_->report().lost;
   row.state_hash = state_hash_;
@@ -106,8 +122,10 @@ Row Run::row() const {
 Row run_once(std::unique_ptr<Solver> solver, const RunPlan& plan, const AfterFrame& after_frame) {
   Run run(std::move(solver), plan);
   while (!run.done()) {
+    const int before = run.steps_done();
     run.step();
-    if (after_frame && !after_frame(run)) break;
+    const bool did_a_frame = run.steps_done() > before;
+    if (did_a_frame && after_frame && !after_frame(run)) break;
   }
   return run.row();
 }

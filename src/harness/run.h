@@ -39,6 +39,9 @@ class Run {
  private:
   void advance();
   void rewind();
+  /// After a wrong end state in a warm-up that is rewound: the counted frames start at once, so that the same frames
+  /// are played again and leave their records up to the error.
+  void give_up_warm_up();
   void take_state();
   void check_end_state(const FrameReport& report);
 

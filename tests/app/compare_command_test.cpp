@@ -63,6 +63,13 @@ TEST(CompareCommand, ThreadCountsAgreeBitByBit) {
   EXPECT_EQ(std::count(frames.begin(), frames.end(), '\n'), 1 + 4 * 10);
 }
 
+TEST(CompareCommand, AThreadCountAskedForTwiceRunsOnce) {
+  const Outcome outcome =
+      squall({"compare", k_tiny, "--backend", "omp", "--threads", "2,1,2,1", "--frames", "2", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(labels(json::parse(outcome.out)), testing::ElementsAre("omp, 2 threads", "omp, 1 thread"));
+}
+
 TEST(CompareCommand, EveryReadBackModeOfADeviceTakesPart) {
   const Outcome outcome =
       squall({"compare", k_tiny, "--backend", "opencl", "--device", "0", "--frames", "6", "--json", "-"});

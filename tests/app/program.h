@@ -46,16 +46,21 @@ struct Outcome {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
-/// The command squall as a process of its own, its output in files.
+/// The command squall as a process of its own, its output in files; stdout goes to `stdout_to`, or is closed, if said.
 class Program {
  public:
-  explicit Program(const std::vector<std::string>& arguments, const Environment& environment = {}) {
+  static constexpr const char* k_closed = "closed";
+
+  explicit Program(const std::vector<std::string>& arguments, const Environment& environment = {},
+                   const std::string& stdout_to = "") {
     std::fflush(nullptr);  // what is buffered here would be written by the child, too
     child_ = fork();
     if (child_ != 0) return;
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-    if (std::freopen(out().c_str(), "w", stdout) == nullptr || std::freopen(err().c_str(), "w", stderr) == nullptr)
+    const std::string place = stdout_to.empty() || stdout_to == k_closed ? out() : stdout_to;
+    if (std::freopen(place.c_str(), "w", stdout) == nullptr || std::freopen(err().c_str(), "w", stderr) == nullptr)
       _exit(126);
+    if (stdout_to == k_closed) close(STDOUT_FILENO);
     std::vector<std::string> texts{SQUALL_PROGRAM};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
     std::vector<char*> words;

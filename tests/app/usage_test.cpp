@@ -58,6 +58,16 @@ TEST(Usage, ValuesOutOfRange) {
   expect_usage_error({"run", k_tiny, "--seconds", "0"}, "--seconds");
   expect_usage_error({"run", k_tiny, "--budget-ms", "-3"}, "--budget-ms");
   expect_usage_error({"run"}, "scene");
+  for (const char* value : {"0", "-1", "nan", "inf", "1e999", "soon"})
+    for (const char* option : {"--seconds", "--budget-ms"})
+      expect_usage_error({"run", k_tiny, option, value}, std::string(option) + ": '" + value + "'");
+  for (const char* value : {"0", "nan", "-1", "1.5", "1e-8"})
+    expect_usage_error({"run", k_tiny, "--dt-max", value}, "--dt-max: '" + std::string(value) + "'");
+  for (const char* value : {"-1", "1.5", "18446744073709551616", "99999999999999999999"})
+    expect_usage_error({"run", k_tiny, "--seed", value}, "[0, 18446744073709551615]");
+  EXPECT_EQ(squall({"run", k_tiny, "--seed", "18446744073709551615", "--print-scene"}).code, 0);
+  for (const char* value : {"0", "268435457", "2147483648"})
+    expect_usage_error({"run", k_tiny, "--particles", value}, "--particles");
 }
 
 TEST(Usage, OptionsThatContradictEachOther) {
@@ -65,6 +75,41 @@ TEST(Usage, OptionsThatContradictEachOther) {
   expect_usage_error({"run", k_tiny, "--save-every", "3"}, "--out");
   expect_usage_error({"run", k_tiny, "--backend", "reference", "--device", "0"}, "--device");
   expect_usage_error({"run", k_tiny, "--backend", "reference", "--simd", "avx2"}, "--simd");
+}
+
+TEST(Usage, AValueIsNotEmpty) {
+  for (const char* option : {"--json", "--out", "--device", "--backend", "--simd", "--pressure"})
+    expect_usage_error({"run", k_tiny, "--frames", "1", option, ""}, std::string(option));
+}
+
+TEST(Usage, OptionsOfBackendsThatDoNotTakePart) {
+  for (const char* command : {"run", "compare"}) {
+    expect_usage_error({command, k_tiny, "--backend", "omp", "--device", "7"}, "--device");
+    expect_usage_error({command, k_tiny, "--backend", "omp", "--readback", "blocking"}, "--readback");
+    expect_usage_error({command, k_tiny, "--backend", "reference", "--threads", "2"}, "--threads");
+    expect_usage_error({command, k_tiny, "--backend", "reference", "--simd", "scalar"}, "--simd");
+  }
+}
+
+TEST(Usage, AFlagBeatsAVariableThatContradictsIt) {
+  struct Case {
+    std::string variable, value;
+    std::vector<std::string> flags;
+  };
+  for (const auto& [variable, value, flags] : std::vector<Case>{{"SQUALL_DEVICE", "0", {"--backend", "reference"}},
+                                                                {"SQUALL_READBACK", "none", {"--backend", "omp"}},
+                                                                {"SQUALL_THREADS", "2", {"--backend", "reference"}},
+                                                                {"SQUALL_SIMD", "scalar", {"--backend", "reference"}},
+                                                                {"SQUALL_PRECISION", "double", {"--backend", "omp"}},
+                                                                {"SQUALL_BACKEND", "omp", {"--device", "0"}},
+                                                                {"SQUALL_BACKEND", "reference", {"--threads", "2"}}}) {
+    std::vector<std::string> arguments{"run", k_tiny, "--frames", "1"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const Outcome outcome = squall(arguments, {{variable, value}});
+    EXPECT_EQ(outcome.code, 0) << variable << outcome.err;
+    EXPECT_NE(outcome.err.find(variable + " is left out"), std::string::npos) << outcome.err;
+  }
+  expect_usage_error({"run", k_tiny}, "--device", {{"SQUALL_BACKEND", "omp"}, {"SQUALL_DEVICE", "0"}});
 }
 
 TEST(Usage, VariablesAreCheckedLikeOptions) {

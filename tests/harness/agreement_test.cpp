@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "harness/fake_solver.h"
@@ -58,7 +59,7 @@ Agreement agreement_of(std::vector<std::pair<RunPlan, Faults>> what) {
     views.push_back(runs.back().get());
   }
   AgreementCheck check;
-  while (!runs.front()->done()) {
+  while (std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run->done(); })) {
     for (auto& run : runs) run->step();
     check.after_round(views);
   }
@@ -93,6 +94,66 @@ TEST(Agreement, FirstDifferenceIsNamed) {
   EXPECT_NEAR(agreement.difference->max_position_error_dx, 0.1, 10.0 * std::numeric_limits<double>::epsilon());
   EXPECT_NE(agreement.verdict.find("a and b differ first after frame 4, particle 5"), std::string::npos)
       << agreement.verdict;
+}
+
+Faults losing_at(int frame) {
+  Faults faults;
+  faults.loses_at = frame;
+  return faults;
+}
+
+TEST(Agreement, WhenAllFailOnlyComparedFramesCount) {
+  const Agreement agreement = agreement_of({{short_plan("a"), losing_at(1)}, {short_plan("b"), losing_at(1)}});
+  EXPECT_EQ(agreement.bitwise, true);
+  EXPECT_TRUE(agreement.agree);
+  EXPECT_EQ(agreement.verdict, "same bits in 2 runs after each of 2 frames; all failed and stopped after 2 frames");
+}
+
+TEST(Agreement, TheFrameInWhichAllFailIsCompared) {
+  Faults both = losing_at(0);
+  both.differs_from = 0;
+  const Agreement agreement = agreement_of({{short_plan("a"), losing_at(0)}, {short_plan("b"), both}});
+  EXPECT_EQ(agreement.bitwise, false);
+  EXPECT_FALSE(agreement.agree);
+  EXPECT_EQ(agreement.first_difference_frame, 0u);
+}
+
+TEST(Agreement, ARunThatFailsAloneDisagrees) {
+  const Agreement agreement =
+      agreement_of({{short_plan("a"), {}}, {short_plan("b"), losing_at(4)}, {short_plan("c"), {}}});
+  EXPECT_EQ(agreement.bitwise, false);
+  EXPECT_FALSE(agreement.agree);
+  EXPECT_EQ(agreement.first_difference_frame, 4u);
+  EXPECT_EQ(agreement.verdict,
+            "same bits in 3 runs after each of 8 frames; b failed in frame 4 where a did not; failed and stopped: b "
+            "after 5 frames");
+}
+
+TEST(Agreement, BitsOfTheFrameInWhichOneFailsAreCompared) {
+  Faults faults = losing_at(4);
+  faults.differs_from = 4;
+  const Agreement agreement = agreement_of({{short_plan("a"), {}}, {short_plan("b"), faults}});
+  EXPECT_EQ(agreement.first_difference_frame, 4u);
+  ASSERT_TRUE(agreement.difference);
+  EXPECT_EQ(agreement.difference->particle, 5u);
+  EXPECT_NE(agreement.verdict.find("a and b differ first after frame 4"), std::string::npos) << agreement.verdict;
+}
+
+TEST(Agreement, AFailedDeviceIsNamedAndComparedUntilThen) {
+  Faults faults;
+  faults.device_fails_at = 3;
+  const Agreement agreement = agreement_of({{short_plan("a"), {}}, {short_plan("b"), faults}});
+  EXPECT_EQ(agreement.bitwise, true);
+  EXPECT_TRUE(agreement.agree);
+  EXPECT_EQ(agreement.verdict, "same bits in 2 runs after each of 3 frames; failed and stopped: b after 3 frames");
+}
+
+TEST(Agreement, DevicesThatFailAtOnceLeaveNothingToCompare) {
+  Faults faults;
+  faults.device_fails_at = 0;
+  const Agreement agreement = agreement_of({{short_plan("a"), faults}, {short_plan("b"), faults}});
+  EXPECT_FALSE(agreement.bitwise);
+  EXPECT_NE(agreement.verdict.find("all failed and stopped after 0 frames"), std::string::npos) << agreement.verdict;
 }
 
 TEST(Agreement, TheReferenceAndDoublePrecisionTakeNoPart) {

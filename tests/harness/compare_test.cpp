@@ -82,6 +82,7 @@ TEST(Compare, ADeviceThatFailsLeavesTheOthersAlone) {
   EXPECT_EQ(result.rows[0].frames, 6);
   EXPECT_EQ(result.rows[1].error, "no such device");
   EXPECT_TRUE(result.rows[1].device_failed);
+  EXPECT_EQ(result.rows[1].solver.device, "") << "a device that never started has no name";
   EXPECT_EQ(result.rows[2].error, "");
   EXPECT_FALSE(result.rows[2].exposed_readback_ms);
   EXPECT_TRUE(result.rows[3].device_failed);

@@ -34,6 +34,7 @@ struct Faults {
   int differs_from = std::numeric_limits<int>::max();  ///< particle 5 is 0.01 m further in x
   int loses_at = std::numeric_limits<int>::max();
   int device_fails_at = std::numeric_limits<int>::max();
+  int hurries_from = std::numeric_limits<int>::max();  ///< reports 1e6 m/s, too fast for any number of sub-steps
   bool states_not_finite = false;
 };
 
@@ -58,6 +59,7 @@ class FakeSolver final : public Solver {
       if (frame == faults_.differs_from && particles_.ids[i] == 5) particles_.positions[i].x() += 0.01;
     }
     if (frame == faults_.loses_at) report.lost = 1;
+    if (frame >= faults_.hurries_from) report.max_speed = 1e6;
     report.active = static_cast<std::int64_t>(particles_.size());
     report.neighbours_mean = 30.0;
     if (settings().profile) report.phase_ms["density"] = 3.0;

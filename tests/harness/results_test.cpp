@@ -78,6 +78,17 @@ TEST(Json, OfAnErrorRowHasNoSpeed) {
   EXPECT_TRUE(run.contains("lost_particles"));
 }
 
+TEST(Json, OfARunWithoutCountedFramesHasNoSpeed) {
+  const RunPlan plan = short_plan("fake");
+  const Row row = run_once(make_fake(plan), plan, [](const harness::Run&) { return false; });
+  const Json run = to_json(Context{}, {}, {row}, std::nullopt)["runs"][0];
+  EXPECT_EQ(run["interrupted"], true);
+  EXPECT_FALSE(run.contains("fps"));
+  EXPECT_FALSE(run.contains("error"));
+  EXPECT_EQ(to_google_benchmark(Context{}, {}, {row})["benchmarks"][0]["error_occurred"], true);
+  EXPECT_FALSE(to_json(Context{}, {}, {fake_row()}, std::nullopt)["runs"][0].contains("interrupted"));
+}
+
 TEST(Json, WritesNoInfinity) {
   Agreement agreement;
   agreement.bitwise = agreement.agree = false;

@@ -12,6 +12,7 @@ TEST(Run, CountsFramesAfterTheWarmUp) {
   const Row row = run_once(make_fake(plan), plan);
   EXPECT_EQ(row.error, "");
   EXPECT_EQ(row.frames, 6);
+  EXPECT_FALSE(row.interrupted);
   EXPECT_EQ(row.particles, 64);
   EXPECT_DOUBLE_EQ(row.simulated_s, 0.6);
   EXPECT_GT(row.fps, 0.0);
@@ -48,6 +49,7 @@ TEST(Run, StopsWhenAsked) {
   const Row row = run_once(make_fake(plan), plan, [](const harness::Run& run) { return run.frames().size() < 2; });
   EXPECT_EQ(row.error, "");
   EXPECT_EQ(row.frames, 2);
+  EXPECT_TRUE(row.interrupted);
 }
 
 TEST(Run, LostParticlesMakeAnErrorRow) {
@@ -58,7 +60,34 @@ TEST(Run, LostParticlesMakeAnErrorRow) {
   EXPECT_NE(row.error.find("1 of 64 particles"), std::string::npos) << row.error;
   EXPECT_EQ(row.lost_particles, 1);
   EXPECT_FALSE(row.device_failed);
+  EXPECT_FALSE(row.interrupted);
   EXPECT_EQ(row.frames, 3);
+}
+
+TEST(Run, ATimeStepThatIsTooLongSaysWhatToChange) {
+  RunPlan plan = short_plan("fake");
+  plan.warm_up_frames = 0;
+  Faults faults;
+  faults.hurries_from = 0;
+  faults.loses_at = 1;
+  const Row row = run_once(make_fake(plan, faults), plan);
+  EXPECT_NE(row.error.find("unstable after frame 1: 1000 sub-steps of 0.0001 s"), std::string::npos) << row.error;
+  EXPECT_NE(row.error.find("1e+06 m/s"), std::string::npos) << row.error;
+  EXPECT_NE(row.error.find("raise frame_rate_hz or cfl"), std::string::npos) << row.error;
+}
+
+TEST(Run, AFailureInARewoundWarmUpLeavesItsFrames) {
+  RunPlan plan = short_plan("fake");
+  plan.rewind = true;
+  Faults faults;
+  faults.loses_at = 1;
+  std::vector<std::uint64_t> frames;
+  const Row row = run_once(make_fake(plan, faults), plan, [&](const harness::Run& run) {
+    if (!run.frames().empty()) frames.push_back(run.frames().back().report.frame);
+    return true;
+  });
+  EXPECT_EQ(row.error, "1 of 64 particles are lost after frame 1");
+  EXPECT_EQ(frames, (std::vector<std::uint64_t>{0, 1}));
 }
 
 TEST(Run, StatesThatAreNotFiniteMakeAnErrorRow) {
@@ -74,7 +103,9 @@ TEST(Run, AFailingDeviceEndsTheRunAndIsSaid) {
   const RunPlan plan = short_plan("fake");
   Faults faults;
   faults.device_fails_at = 3;
-  const Row row = run_once(make_fake(plan, faults), plan);
+  int calls = 0;
+  const Row row = run_once(make_fake(plan, faults), plan, [&](const harness::Run&) { return ++calls > 0; });
+  EXPECT_EQ(calls, 3) << "the frame that failed left no record";
   EXPECT_TRUE(row.device_failed);
   EXPECT_NE(row.error.find("the fake device is gone"), std::string::npos) << row.error;
   EXPECT_EQ(row.frames, 1);

@@ -1,0 +1,50 @@
+#include "app/targets.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "app/exit_codes.h"
+#include "app/output_folder.h"
+#include "core/errors.h"
+
+namespace squall::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void protect(const char* option, const fs::path& target, const std::vector<std::string>& inputs) {
+  for (const auto& input : inputs) {
+    std::error_code error;
+    if (!fs::equivalent(target, input, error) || error) continue;
+    throw UsageError(
+        fmt::format("{} would overwrite {}, which this scene is read from; name another place", option, input));
+  }
+}
+
+}  // namespace
+
+void protect_inputs(const Options& options, const Workload& workload) {
+  std::vector<std::string> inputs{options.scene};
+  for (const auto& file : workload.scene.particle_files) inputs.push_back(file.file);
+  if (!options.json.empty() && !options.json_alone()) protect("--json", options.json, inputs);
+  if (options.out.empty()) return;
+  for (const auto& file : OutputFolder::own_files(options.out)) protect("--out", file, inputs);
+}
+
+void check_json_target(const Options& options) {
+  if (options.json.empty() || options.json_alone()) return;
+  std::error_code error;
+  const auto type = fs::status(options.json, error).type();
+  const bool is_new = type == fs::file_type::not_found;
+  // A pipe's reader would take a trial for the end.
+  if (!is_new && type != fs::file_type::regular && type != fs::file_type::directory) return;
+  if (!std::ofstream(options.json, std::ios::app))
+    throw InputError(options.json + ": cannot write this file; check the folder's rights and free space");
+  if (is_new) fs::remove(options.json, error);
+}
+
+}  // namespace squall::app

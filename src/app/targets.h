@@ -1,0 +1,15 @@
+#pragma once
+
+#include "app/options.h"
+#include "app/workload.h"
+
+namespace squall::app {
+
+/// Refuses, before anything is written, --out and --json that would destroy the scene file or a particle file of it
+/// (UsageError).
+void protect_inputs(const Options& options, const Workload& workload);
+
+/// Throws InputError if the file of --json cannot be written; leaves what it holds alone. Folder of --out first.
+void check_json_target(const Options& options);
+
+}  // namespace squall::app

@@ -1,0 +1,37 @@
+// Viscosity far beyond water's: the time step must follow, so that speeds decay and nothing is thrown out.
+
+#include <random>
+
+#include "solver/backends_under_test.h"
+#include "support/scenes.h"
+
+namespace squall::test {
+namespace {
+
+class Viscosity : public OnEveryBackend {};
+SQUALL_ON_EVERY_BACKEND(Viscosity);
+
+TEST_P(Viscosity, OfSyrupCalmsRandomMotion) {
+  Scene scene = filled_tank(4);
+  scene.gravity_m_s2.setZero();
+  scene.fluid.viscosity_m2_s = 1.0;
+  scene.solver.speed_of_sound_m_s = 10.0;
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> speed(-0.5, 0.5);
+  Particles particles = initial_particles(scene);
+  double start = 0.0;
+  for (auto& velocity : particles.velocities) {
+    velocity = {speed(random), speed(random), speed(random)};
+    start += velocity.squaredNorm();
+  }
+  const auto solver = make(scene);
+  solver->load(particles);
+  for (int frame = 0; frame < 2; ++frame) ASSERT_EQ(solver->advance().lost, 0);
+  double end = 0.0;
+  for (const auto& velocity : solver->state().particles.velocities) end += velocity.squaredNorm();
+  // lambda t is some hundreds for the mode that decays fastest and still 3 for one as long as the tank: a tenth is far.
+  EXPECT_LT(end, 0.1 * start);
+}
+
+}  // namespace
+}  // namespace squall::test
