@@ -1,4 +1,5 @@
-// A game loop in miniature: water that a program made up itself, advanced frame by frame, positions read where they lie.
+// A game loop in miniature: water that a program made up itself, advanced frame by frame, positions read where they
+// lie.
 
 #include <cstdio>
 #include <exception>
