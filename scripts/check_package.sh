@@ -7,7 +7,7 @@ example="$(cd "$(dirname "${BASH_SOURCE[0]}")/../examples/embed" && pwd)"
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 cmake --install "$build" --prefix "$out/prefix" >/dev/null
-cmake -S "$example" -B "$out/build" -DCMAKE_PREFIX_PATH="$out/prefix" -DCMAKE_BUILD_TYPE=Release >"$out/log" 2>&1 &&
+cmake -G Ninja -S "$example" -B "$out/build" -DCMAKE_PREFIX_PATH="$out/prefix" -DCMAKE_BUILD_TYPE=Release >"$out/log" 2>&1 &&
   cmake --build "$out/build" >>"$out/log" 2>&1 || {
   cat "$out/log" >&2
   exit 1
