@@ -1,4 +1,4 @@
-# gnuplot -c scripts/draw_frames.gp OUT.png FRAME.csv...
+# gnuplot -c scripts/draw_frames.gp OUT.png FRAME.csv...     (one to five frames)
 # Draws frames that `squall run --save-every` wrote, from the side and below each other: every particle where it is,
 # coloured by its speed [m/s].
 set datafile separator ","

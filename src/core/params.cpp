@@ -12,8 +12,6 @@ namespace squall {
 
 namespace {
 
-constexpr double k_standard_gravity = 9.80665;  // m/s^2: what terminal speeds are measured under
-
 /// Cells of each axis; an edge is H (1 + margin), so that no rounding of coordinate * inverse_edge in single precision
 /// puts two particles within H more than one cell apart.
 void set_grid(const Scene& scene, Params<double>& p) {

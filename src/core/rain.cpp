@@ -11,8 +11,7 @@ namespace {
 
 __extension__ typedef __int128 Wide;
 
-constexpr double k_standard_gravity = 9.80665;  // m/s^2
-constexpr double k_rate_unit = 1e6;             // rates are integers of 1e-6/s, so that drops are counted exactly
+constexpr double k_rate_unit = 1e6;  // rates are integers of 1e-6/s, so that drops are counted exactly
 
 std::int64_t to_units(double per_second) { return std::llround(per_second * k_rate_unit); }
 

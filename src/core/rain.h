@@ -8,6 +8,8 @@
 
 namespace squall {
 
+inline constexpr double k_standard_gravity = 9.80665;  ///< m/s^2: what terminal speeds are measured under
+
 /// Terminal speed [m/s] of a drop in still air: v = 9.65 - 10.3 exp(-0.6 D), D in mm, [0.5, 8] (Atlas, Srivastava,
 /// Sekhon 1973, Rev. Geophys. 11:1); within 2 % of Gunn & Kinzer 1949.
 double terminal_speed(double drop_diameter_mm);
