@@ -23,8 +23,8 @@ squall::Scene make_scene() {
 float front_of(const squall::PositionsView& view) {
   float front = 0.0f;
   for (std::size_t i = 0; i < view.count; ++i) {
-    const float x = view.data[i * view.stride];
-    if (x > front && x < 1e29f) front = x;
+    const float x = view.position(i).x();
+    if (x > front && !view.lost(i)) front = x;
   }
   return front;
 }

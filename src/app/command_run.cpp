@@ -1,8 +1,6 @@
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
@@ -51,14 +49,14 @@ int command_run(const Options& options) {
   harness::Row row;
   {
     Progress progress(options.quiet, workload.info.name);
-    std::map<std::string, double> phases;
+    harness::Profile profile;
     row = harness::run_once(make(plan), plan, [&](const harness::Run& run) {
       if (folder) folder->after_frame(run, options.save_every);
       progress.update(run.steps_done(), run.steps_planned());
-      if (run.done() && run.error().empty()) phases = harness::profile_phases(make, plan, run.state());
+      if (run.done() && run.error().empty()) profile = harness::profile_run(make, plan, run.state());
       return !interrupt.requested();
     });
-    row.phase_ms = std::move(phases);
+    harness::add_profile(profile, row);
   }
   if (!options.json_alone()) std::cout << run_result_text(options, workload, row) << std::flush;
   write_result(options, workload, backends, {row}, std::nullopt);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "app/result_output.h"
@@ -68,6 +69,24 @@ std::string times_text(const std::vector<Row>& rows) {
   return table.text();
 }
 
+std::string optional_text(const std::optional<double>& value, int decimals, double scale = 1.0) {
+  return value ? fmt::format("{:.{}f}", scale * *value, decimals) : "-";
+}
+
+/// How positions came to the host; empty where every run delivers in place.
+std::string readback_text(const std::vector<Row>& rows) {
+  Table table({"read-back", "kB delivered", "kB copied", "copy ms (separate run)", "hidden %", "frames late"});
+  bool any = false;
+  for (const auto& row : rows) {
+    if (row.plan.backend != "opencl" || !row.error.empty()) continue;
+    any = true;
+    table.add({row.plan.label, fmt::format("{:.1f}", row.readback_bytes_per_frame / 1e3),
+               fmt::format("{:.1f}", row.readback_copied_bytes_per_frame / 1e3), optional_text(row.readback_copy_ms, 3),
+               optional_text(row.readback_overlap, 0, 100.0), std::to_string(row.readback_latency_frames)});
+  }
+  return any ? table.text() + "\n" : "";
+}
+
 std::string budget_text(const std::vector<Row>& rows, double budget_ms) {
   std::vector<std::string> fitting;
   for (const auto& row : rows)
@@ -86,7 +105,7 @@ std::string comparison_text(const harness::Comparison& comparison, std::optional
   if (good != rows.end())
     text += fmt::format("{} frames after {} uncounted ones: {:.3f} s simulated, {} sub-steps\n", good->frames,
                         good->plan.warm_up_frames, good->simulated_s, with_commas(good->steps));
-  text += "\n" + times_text(rows) + "\n";
+  text += "\n" + times_text(rows) + "\n" + readback_text(rows);
   if (const auto phases = phases_text(rows); !phases.empty()) text += phases + "\n";
   if (good != rows.end()) text += water_text(*good) + "\n";
   const std::string verdict = "agreement: " + comparison.agreement.verdict;

@@ -103,7 +103,9 @@ CLI::App* add_run(CLI::App& app, Options& options, Raw& raw) {
       ->expected(1)
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  add(*run, "--readback", raw.readbacks, "none, blocking, pinned or mapped (mapped)")->expected(1)->type_name("MODE");
+  add(*run, "--readback", raw.readbacks, "none, blocking, pinned, mapped, async or quantized (mapped)")
+      ->expected(1)
+      ->type_name("MODE");
   add_measuring_options(*run, options, raw);
   add(*run, "--save-every", options.save_every, "With --out: write the particles after every N-th frame")
       ->check(CLI::Range(1, 10'000'000))

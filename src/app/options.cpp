@@ -42,8 +42,9 @@ Simd parse_simd(const std::string& text) {
 }
 
 Readback parse_readback(const std::string& text) {
-  return pick("--readback", text, {Readback::none, Readback::blocking, Readback::pinned, Readback::mapped},
-              {"async", "quantized"});
+  return pick(
+      "--readback", text,
+      {Readback::none, Readback::blocking, Readback::pinned, Readback::mapped, Readback::async, Readback::quantized});
 }
 
 std::string parse_backend(const std::string& text) {

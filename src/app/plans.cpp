@@ -156,7 +156,8 @@ class ComparisonPlanner {
     }
   }
   void add_device(const DeviceInfo& device, int threads) {
-    static constexpr Readback k_all[] = {Readback::none, Readback::blocking, Readback::mapped, Readback::pinned};
+    static constexpr Readback k_all[] = {Readback::none,   Readback::blocking, Readback::pinned,
+                                         Readback::mapped, Readback::async,    Readback::quantized};
     const auto& asked_for = options_.readbacks;
     for (const Readback mode : k_all) {
       if (!asked_for.empty() && std::count(asked_for.begin(), asked_for.end(), mode) == 0) continue;

@@ -35,6 +35,16 @@ std::string times_text(const harness::Row& row) {
   return table.text();
 }
 
+std::string readback_text(const harness::Row& row) {
+  std::string text = fmt::format("read-back {}: {:.1f} kB delivered per frame, {:.1f} kB copied, {:.2g} % of the time",
+                                 harness::readback_name(row), row.readback_bytes_per_frame / 1e3,
+                                 row.readback_copied_bytes_per_frame / 1e3, 100.0 * row.readback_share);
+  if (row.readback_latency_frames > 0)
+    text += fmt::format(", {} frame{} late", row.readback_latency_frames, row.readback_latency_frames > 1 ? "s" : "");
+  if (row.readback_overlap) text += fmt::format(", {:.0f} % of the copying hidden", 100.0 * *row.readback_overlap);
+  return text;
+}
+
 }  // namespace
 
 std::string water_text(const harness::Row& row) {
@@ -53,10 +63,9 @@ std::string run_text(const harness::Row& row) {
                       with_commas(row.frames), with_commas(row.steps), row.simulated_s, row.wall_s, row.realtime_factor,
                       row.fps);
   text += times_text(row) + "\n";
-  text += fmt::format(
-      "{:.2f} M particle-steps/s, {:.0f} M pairs/s; read-back {}: {:.1f} kB per frame, {:.2g} % of the time\n",
-      row.particle_steps_per_s / 1e6, row.pairs_per_s / 1e6, harness::readback_name(row),
-      row.readback_bytes_per_frame / 1e3, 100.0 * row.readback_share);
+  text += fmt::format("{:.2f} M particle-steps/s, {:.0f} M pairs/s\n", row.particle_steps_per_s / 1e6,
+                      row.pairs_per_s / 1e6);
+  text += readback_text(row) + "\n";
   text += water_text(row) + "\n";
   text += "state " + hash_text(row.state_hash) + "\n";
   const auto phases = phases_text({row});
@@ -71,11 +80,8 @@ std::string phases_text(const std::vector<harness::Row>& rows) {
   std::vector<std::string> header{"ms per phase (separate run)"};
   header.insert(header.end(), phases.begin(), phases.end());
   Table table(header);
-  const std::map<std::string, double>* previous = nullptr;
   for (const auto& row : rows) {
-    // Read-back modes of one device share one profiled run.
-    if (row.phase_ms.empty() || (previous != nullptr && *previous == row.phase_ms)) continue;
-    previous = &row.phase_ms;
+    if (row.phase_ms.empty()) continue;
     std::vector<std::string> cells{row.plan.label};
     for (const auto& phase : phases)
       cells.push_back(row.phase_ms.contains(phase) ? fmt::format("{:.3f}", row.phase_ms.at(phase)) : "-");

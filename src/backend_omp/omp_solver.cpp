@@ -230,7 +230,7 @@ class OmpSolver final : public Solver {
     report.neighbours_mean = active > 0 ? static_cast<double>(total.neighbours) / active : 0.0;
   }
 
-  PositionsView do_positions() override { return {&state_[0].x, sizeof(Record) / sizeof(float), count_}; }
+  PositionsView do_positions() override { return {state_.data(), PositionFormat::float32, sizeof(Record), count_}; }
 
   Particles do_download() override {
     Particles particles;

@@ -23,4 +23,14 @@ Completion::Time Completion::time(Time otherwise) const {
   return mark_->time.value_or(otherwise);
 }
 
+void wait_for(const cl::Event& event, const char* description) {
+  try {
+    event.wait();
+  } catch (const cl::Error& error) {
+    const auto status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
+    // -1, the code for a device that is not there, is what some drivers give commands that others took down with them.
+    throw cl::Error(status < CL_DEVICE_NOT_FOUND ? status : error.err(), description);
+  }
+}
+
 }  // namespace squall::opencl

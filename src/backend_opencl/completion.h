@@ -32,4 +32,8 @@ class Completion {
   std::shared_ptr<Mark> mark_;  // the callback owns it too: it may come late
 };
 
+/// Waits until a command is done. Throws cl::Error with the command's own status and this description if it failed:
+/// finishing a queue says nothing of that.
+void wait_for(const cl::Event& event, const char* description);
+
 }  // namespace squall::opencl

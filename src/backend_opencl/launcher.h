@@ -10,6 +10,16 @@
 
 namespace squall::opencl {
 
+/// Phase of everything that delivers positions.
+inline constexpr const char* k_readback_phase = "readback";
+
+/// What the commands of a frame cost on the device [ms].
+struct DeviceTimes {
+  std::map<std::string, double> phases;
+  double readback = 0.0;         ///< that phase again
+  double readback_hidden = 0.0;  ///< the part of it during which commands of other phases ran
+};
+
 /// Puts commands into a queue and, if it profiles, adds up what they cost by phase.
 class Launcher {
  public:
@@ -25,17 +35,13 @@ class Launcher {
   /// Where the next command's event goes: null unless profiling.
   cl::Event* event(const char* phase) { return profile_ ? &events_.emplace_back(phase, cl::Event()).second : nullptr; }
 
-  /// [ms] by phase since the last call. The queue must be finished.
-  std::map<std::string, double> take_times() {
-    std::map<std::string, double> times;
-    for (const auto& [phase, event] : events_) {
-      const auto begin = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-      const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-      times[phase] += 1e-6 * static_cast<double>(end - begin);
-    }
-    events_.clear();
-    return times;
+  /// Counts a command, of this or another queue of the device, with a phase.
+  void note(const cl::Event& event, const char* phase) {
+    if (profile_) events_.emplace_back(phase, event);
   }
+
+  /// Of the commands since the last call; nothing unless profiling. The queues must be finished.
+  DeviceTimes take_times();
 
  private:
   cl::CommandQueue queue_;

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "backend_opencl/buffers.h"
 #include "backend_opencl/completion.h"
@@ -11,6 +12,7 @@
 #include "backend_opencl/passes.h"
 #include "backend_opencl/program.h"
 #include "backend_opencl/readback.h"
+#include "backend_opencl/shared_memory.h"
 #include "backend_opencl/sort.h"
 #include "chunks.h"
 
@@ -45,6 +47,7 @@ class OpenclSolver final : public Solver {
   void do_load(const Particles& particles) override {
     count_ = 0;
     do_append(particles);
+    settled_count_ = count_;
   }
 
   void do_append(const Particles& particles) override {
@@ -72,6 +75,7 @@ class OpenclSolver final : public Solver {
   void upload_table(const FramePlan& plan, FrameReport& report);
   void enqueue_substep(int step, const Substep<double>& substep, bool deliver);
   void fill_report(FrameReport& report) const;
+  void take_device_times(FrameReport& report);
 
   Machine machine_;
   Launcher launcher_;
@@ -83,7 +87,8 @@ class OpenclSolver final : public Solver {
   std::vector<Substep<float>> table_;
   std::vector<ChunkSummary> summaries_;
   int count_ = 0;
-  int ids_now_ = 0;  ///< which of the two id buffers is current
+  int settled_count_ = 0;  ///< when the last frame ended, or as loaded: without what was appended since
+  int ids_now_ = 0;        ///< which of the two id buffers is current
   double setup_ms_ = 0.0;
   std::string options_;  ///< of the kernels
 };
@@ -106,8 +111,8 @@ void OpenclSolver::set_up() {
   const auto begin = SteadyClock::now();
   options_ = build_options(scene(), settings().pressure, machine_.rounds_correctly, shape_.lanes);
   const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(), options_);
-  const bool shared = layout.readback == Readback::mapped && shares_host_memory(machine_, program);
-  buffers_ = make_buffers(machine_, layout, shape_, shared);
+  const bool shared = PositionReader::wants_shared(layout.readback) && shares_host_memory(machine_, program);
+  buffers_ = make_buffers(machine_, layout, shape_, shared && layout.readback == Readback::mapped);
   sort_.emplace(program, buffers_, shape_);
   passes_.emplace(program, buffers_, shape_);
   reader_.emplace(machine_, program, buffers_, layout, shape_, shared);
@@ -168,6 +173,7 @@ Particles OpenclSolver::download() {
 void OpenclSolver::advance_frame(const FramePlan& plan, bool deliver, FrameReport& report) {
   reader_->withdraw();
   upload_table(plan, report);
+  if (deliver) reader_->before_frame(launcher_, settled_count_);
   bool statistics = false;
   for (std::size_t step = 0; step < plan.substeps.size(); ++step) {
     enqueue_substep(static_cast<int>(step), plan.substeps[step], deliver);
@@ -179,14 +185,22 @@ void OpenclSolver::advance_frame(const FramePlan& plan, bool deliver, FrameRepor
   queue.enqueueReadBuffer(buffers_.summaries, CL_FALSE, 0, summaries_.size() * sizeof(ChunkSummary), summaries_.data(),
                           nullptr, &summary_read);
   const Completion computed(summary_read);
-  if (deliver) reader_->enqueue_delivery(launcher_, count_);
+  if (deliver) reader_->after_frame(launcher_, count_);
   queue.finish();
-  const auto finished = SteadyClock::now();
-  report.readback_ms = reader_->blocked_ms();
-  if (reader_->delivers_at_end()) report.readback_ms += milliseconds(computed.time(finished), finished);
-  report.readback_bytes = reader_->bytes();
+  wait_for(summary_read, "computing a frame");
+  report.readback_ms = reader_->finish(computed);
+  report.readback_copied_bytes = reader_->copied_bytes();
+  report.readback_latency_frames = deliver ? reader_->latency_frames() : 0;
+  settled_count_ = count_;
   fill_report(report);
-  if (settings().profile) report.phase_ms = launcher_.take_times();
+  if (settings().profile) take_device_times(report);
+}
+
+void OpenclSolver::take_device_times(FrameReport& report) {
+  DeviceTimes times = launcher_.take_times();
+  report.phase_ms = std::move(times.phases);
+  report.readback_copy_ms = times.readback;
+  report.readback_hidden_ms = times.readback_hidden;
 }
 
 void OpenclSolver::upload_table(const FramePlan& plan, FrameReport& report) {

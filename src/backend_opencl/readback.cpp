@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 
 #include "backend_opencl/kernel_arguments.h"
 
@@ -10,38 +9,36 @@ namespace squall::opencl {
 
 namespace {
 
-constexpr std::size_t k_position_bytes = 16;  // float4
+using SteadyClock = std::chrono::steady_clock;
+
 constexpr std::size_t k_record_bytes = 32;
+constexpr std::size_t k_float4_bytes = 16;
+constexpr std::size_t k_codes_bytes = 6;
+constexpr float k_largest_code = k_lost_code - 1;
 
-std::size_t staging_bytes(const Layout& layout) { return std::max<std::size_t>(layout.capacity, 1) * k_position_bytes; }
+bool stages(Readback mode) { return mode != Readback::none && mode != Readback::mapped; }
 
-bool stages(Readback mode) { return mode == Readback::blocking || mode == Readback::pinned; }
+std::size_t staged_bytes(Readback mode) { return mode == Readback::quantized ? k_codes_bytes : k_float4_bytes; }
 
-double milliseconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+/// Pinned buffers: async fills one while the caller may still read the other.
+std::size_t pinned_count(Readback mode, bool shared) {
+  if (mode == Readback::async) return 2;
+  return mode == Readback::pinned || (mode == Readback::quantized && !shared) ? 1 : 0;
+}
+
+std::size_t staging_bytes(const Layout& layout) {
+  return std::max<std::size_t>(layout.capacity, 1) * staged_bytes(layout.readback);
+}
+
+double milliseconds(SteadyClock::time_point begin, SteadyClock::time_point end) {
+  return std::chrono::duration<double, std::milli>(end - begin).count();
 }
 
 }  // namespace
 
-bool shares_host_memory(Machine& machine, const cl::Program& program) {
-  if (!machine.device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>()) return false;
-  constexpr std::size_t k_words = 4096;
-  constexpr cl_uint k_patterns[] = {0x5eed0001u, 0xa5a50003u};
-  const Pages pages = allocate_pages(k_words * sizeof(cl_uint));
-  const cl::Buffer buffer(machine.context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, k_words * sizeof(cl_uint),
-                          pages.get());
-  cl::Kernel kernel(program, "probe_memory");
-  std::vector<cl_uint> seen(k_words);
-  for (const cl_uint pattern : k_patterns) {
-    set_arguments(kernel, buffer, pattern);
-    machine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(k_words), cl::NDRange(64));
-    machine.queue.finish();
-    // Not mapped: only a device that works on this very memory has changed it.
-    std::memcpy(seen.data(), pages.get(), k_words * sizeof(cl_uint));
-    for (std::size_t i = 0; i < k_words; ++i)
-      if (seen[i] != pattern + static_cast<cl_uint>(i)) return false;
-  }
-  return true;
+Eigen::Vector3f quantization_steps(const Params<float>& p) {
+  const float top = p.lid > 0.0f ? p.size_y : p.size_y + p.lost_distance;
+  return Eigen::Vector3f(p.size_x, top, p.size_z) / k_largest_code;
 }
 
 PositionReader::PositionReader(Machine& machine, const cl::Program& program, const Buffers& buffers,
@@ -49,25 +46,33 @@ PositionReader::PositionReader(Machine& machine, const cl::Program& program, con
     : mode_(layout.readback),
       shared_(shared),
       shape_(shape),
+      position_bytes_(staged_bytes(mode_)),
+      steps_(quantization_steps(layout.params)),
       queue_(machine.queue),
-      records_(buffers.records),
-      stage_(program, "stage_positions") {
+      records_(buffers.records) {
   if (!stages(mode_)) return;
-  staging_ = cl::Buffer(machine.context, CL_MEM_READ_WRITE, staging_bytes(layout));
-  set_arguments(stage_, records_, staging_, 0);
-  if (mode_ == Readback::blocking) {
-    pageable_.resize(staging_bytes(layout) / sizeof(float));
+  const std::size_t bytes = staging_bytes(layout);
+  if (mode_ == Readback::quantized && shared_) staging_pages_ = allocate_pages(bytes);
+  staging_ = cl::Buffer(machine.context, CL_MEM_READ_WRITE | (staging_pages_ ? CL_MEM_USE_HOST_PTR : 0), bytes,
+                        staging_pages_.get());
+  if (mode_ == Readback::quantized) {
+    const Eigen::Vector3f inverse = steps_.cwiseInverse();
+    kernel_ = cl::Kernel(program, "quantize_positions");
+    set_arguments(kernel_, records_, staging_, cl_float4{{inverse.x(), inverse.y(), inverse.z(), 0.0f}}, 0);
   } else {
-    pinned_ = cl::Buffer(machine.context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, staging_bytes(layout));
-    pinned_memory_ = static_cast<float*>(
-        queue_.enqueueMapBuffer(pinned_, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, staging_bytes(layout)));
+    kernel_ = cl::Kernel(program, "stage_positions");
+    set_arguments(kernel_, records_, staging_, 0);
   }
+  if (mode_ == Readback::blocking) pageable_.resize(bytes / sizeof(float));
+  for (std::size_t i = 0; i < pinned_count(mode_, shared_); ++i)
+    pinned_.push_back(std::make_unique<PinnedMemory>(machine, bytes));
+  if (mode_ == Readback::async)
+    copy_queue_ = cl::CommandQueue(machine.context, machine.device, machine.queue.getInfo<CL_QUEUE_PROPERTIES>());
 }
 
 PositionReader::~PositionReader() {
   try {
     withdraw();
-    if (pinned_memory_) queue_.enqueueUnmapMemObject(pinned_, pinned_memory_);
     queue_.finish();
   } catch (const cl::Error&) {
     // The device is gone, and its memory with it.
@@ -77,55 +82,119 @@ PositionReader::~PositionReader() {
 std::vector<MemoryNeed> PositionReader::memory_needs(const Layout& layout) {
   std::vector<MemoryNeed> needs;
   if (stages(layout.readback)) needs.push_back({"staged positions", staging_bytes(layout)});
-  if (layout.readback == Readback::pinned) needs.push_back({"pinned positions", staging_bytes(layout)});
+  for (std::size_t i = 0; i < pinned_count(layout.readback, false); ++i)
+    needs.push_back({"pinned positions", staging_bytes(layout)});
   return needs;
 }
 
 void PositionReader::warm_up(Launcher& launcher) {
-  if (stages(mode_)) enqueue_staging(launcher, 0);
+  if (stages(mode_)) run_kernel(launcher, 0);
 }
 
 void PositionReader::withdraw() {
   view_ = {};
   blocked_ms_ = 0.0;
-  bytes_ = 0;
+  copied_bytes_ = 0;
+  delivered_ = {};
+  copied_.reset();
+  staged_.clear();
+  staged_count_ = 0;
+  if (copy_queue_()) copy_queue_.finish();
   if (!mapped_) return;
-  queue_.enqueueUnmapMemObject(records_, mapped_);
+  queue_.enqueueUnmapMemObject(*mapped_buffer_, mapped_);
   mapped_ = nullptr;
 }
 
-void PositionReader::enqueue_staging(Launcher& launcher, int count) {
-  stage_.setArg(2, count);
-  launcher.run(stage_, shape_.particles, shape_.group, "readback");
+void PositionReader::before_frame(Launcher& launcher, int count) {
+  if (mode_ != Readback::async || count == 0) return;
+  staged_count_ = static_cast<std::size_t>(count);
+  staged_ = {run_kernel(launcher, staged_count_)};
 }
 
 void PositionReader::after_substep(Launcher& launcher, int count) {
-  if (mode_ != Readback::blocking || count == 0) return;
-  queue_.finish();
-  const auto begin = std::chrono::steady_clock::now();
-  const std::size_t bytes = static_cast<std::size_t>(count) * k_position_bytes;
-  enqueue_staging(launcher, count);
-  queue_.enqueueReadBuffer(staging_, CL_TRUE, 0, bytes, pageable_.data(), nullptr, launcher.event("readback"));
-  blocked_ms_ += milliseconds_since(begin);
-  bytes_ += bytes;
-  view_ = {pageable_.data(), 4, static_cast<std::size_t>(count)};
+  if (mode_ == Readback::async && staged_count_ > 0) send_staged(launcher);
+  if (mode_ == Readback::blocking && count > 0) read_and_wait(launcher, static_cast<std::size_t>(count));
 }
 
-void PositionReader::enqueue_delivery(Launcher& launcher, int count) {
+/// Once the device has the sub-step to compute beside it.
+void PositionReader::send_staged(Launcher& launcher) {
+  queue_.flush();
+  turn_ = (turn_ + 1) % pinned_.size();
+  read(launcher, copy_queue_, pinned_[turn_]->data(), staged_count_, &staged_);
+  copy_queue_.flush();
+  copied_.emplace(delivered_);
+  show(pinned_[turn_]->data(), staged_count_);
+  staged_count_ = 0;
+}
+
+void PositionReader::read_and_wait(Launcher& launcher, std::size_t count) {
+  queue_.finish();
+  const auto begin = SteadyClock::now();
+  run_kernel(launcher, count);
+  read(launcher, queue_, pageable_.data(), count, nullptr);
+  wait_for(delivered_, "reading positions after a sub-step");
+  blocked_ms_ += milliseconds(begin, SteadyClock::now());
+  show(pageable_.data(), count);
+}
+
+void PositionReader::after_frame(Launcher& launcher, int count) {
   if (count == 0) return;
   const auto size = static_cast<std::size_t>(count);
-  if (mode_ == Readback::pinned) {
-    enqueue_staging(launcher, count);
-    queue_.enqueueReadBuffer(staging_, CL_FALSE, 0, size * k_position_bytes, pinned_memory_, nullptr,
-                             launcher.event("readback"));
-    bytes_ += size * k_position_bytes;
-    view_ = {pinned_memory_, 4, size};
-  } else if (mode_ == Readback::mapped) {
-    mapped_ = queue_.enqueueMapBuffer(records_, CL_FALSE, CL_MAP_READ, 0, size * k_record_bytes, nullptr,
-                                      launcher.event("readback"));
-    bytes_ += shared_ ? 0 : size * k_record_bytes;
-    view_ = {static_cast<const float*>(mapped_), 8, size};
+  if (mode_ == Readback::mapped) {
+    map(launcher, records_, size * k_record_bytes);
+  } else if (mode_ == Readback::pinned || mode_ == Readback::quantized) {
+    run_kernel(launcher, size);
+    if (mode_ == Readback::quantized && shared_) {
+      map(launcher, staging_, size * position_bytes_);
+    } else {
+      read(launcher, queue_, pinned_.front()->data(), size, nullptr);
+      show(pinned_.front()->data(), size);
+    }
   }
+  if (mapped_) show(mapped_, size);
+}
+
+double PositionReader::finish(const Completion& computed) {
+  if (view_.count == 0 || mode_ == Readback::blocking) return blocked_ms_;
+  wait_for(delivered_, "delivering positions");
+  const auto now = SteadyClock::now();
+  const auto begin = computed.time(now);
+  if (copied_ && copied_->time(now) <= begin) return 0.0;
+  return milliseconds(begin, now);
+}
+
+cl::Event PositionReader::run_kernel(Launcher& launcher, std::size_t count) {
+  cl::Event staged;
+  kernel_.setArg(mode_ == Readback::quantized ? 3 : 2, static_cast<int>(count));
+  queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(shape_.particles), cl::NDRange(shape_.group), nullptr,
+                              &staged);
+  launcher.note(staged, k_readback_phase);
+  copied_bytes_ += count * position_bytes_;
+  return staged;
+}
+
+void PositionReader::read(Launcher& launcher, cl::CommandQueue& queue, void* to, std::size_t count,
+                          const std::vector<cl::Event>* after) {
+  const std::size_t bytes = count * position_bytes_;
+  queue.enqueueReadBuffer(staging_, CL_FALSE, 0, bytes, to, after, &delivered_);
+  launcher.note(delivered_, k_readback_phase);
+  copied_bytes_ += bytes;
+}
+
+void PositionReader::map(Launcher& launcher, const cl::Buffer& buffer, std::size_t bytes) {
+  mapped_ = queue_.enqueueMapBuffer(buffer, CL_FALSE, CL_MAP_READ, 0, bytes, nullptr, &delivered_);
+  mapped_buffer_ = &buffer;
+  launcher.note(delivered_, k_readback_phase);
+  copied_bytes_ += shared_ ? 0 : bytes;
+}
+
+void PositionReader::show(const void* data, std::size_t count) {
+  const bool coded = mode_ == Readback::quantized;
+  view_.data = data;
+  view_.format = coded ? PositionFormat::unorm16 : PositionFormat::float32;
+  view_.stride = mode_ == Readback::mapped ? k_record_bytes : position_bytes_;
+  view_.count = count;
+  if (coded) view_.scale = steps_;
 }
 
 }  // namespace squall::opencl

@@ -14,20 +14,25 @@ struct FrameReport {
   int substeps = 0;
   double dt_s = 0.0;
   double iterations_mean = 0.0;  ///< pressure iterations per sub-step; 0 for solvers without
-  double frame_ms = 0.0;         ///< from the call of advance until the data asked for can be read, queue finished
+  double frame_ms = 0.0;         ///< from the call of advance until the data asked for can be read, queues finished
   double upload_ms = 0.0;        ///< plan and appended particles to the device
-  double readback_ms = 0.0;      ///< from compute complete to data readable
+  double readback_ms = 0.0;      ///< from compute complete to data readable; 0 if it was readable before
   double compute_ms = 0.0;       ///< frame - readback - upload
   std::map<std::string, double> phase_ms;  ///< with Settings::profile: sort, density, forces, ...; else empty
 
-  std::uint64_t readback_bytes = 0;  ///< bytes copied between device and host to deliver positions
-  std::int64_t particles = 0;        ///< all there are, lost ones included
-  std::int64_t active = 0;           ///< neither held nor lost, in the last sub-step
-  std::int64_t lost = 0;             ///< so far: not finite, or further away than ten container heights
-  std::int64_t clamps = 0;           ///< times a particle was put back behind a wall in this frame
-  double max_speed = 0.0;            ///< m/s, over the frame
-  double max_acceleration = 0.0;     ///< m/s^2, over the frame
-  bool time_step_limited = false;    ///< k_max_substeps left a step too long for the speeds that were met
+  std::uint64_t readback_bytes = 0;         ///< of the positions delivered: 12 for each, 6 in 16 bits
+  std::uint64_t readback_copied_bytes = 0;  ///< written to deliver them, by kernels and by transfers; 0: zero copy
+  int readback_latency_frames = 0;          ///< the positions delivered are of so many frames ago
+  double readback_copy_ms = 0.0;  ///< with Settings::profile: device time of what readback_copied_bytes counts, of maps
+  double readback_hidden_ms = 0.0;  ///< with Settings::profile: the part of it beside other commands of the frame
+
+  std::int64_t particles = 0;      ///< all there are, lost ones included
+  std::int64_t active = 0;         ///< neither held nor lost, in the last sub-step
+  std::int64_t lost = 0;           ///< so far: not finite, or further away than ten container heights
+  std::int64_t clamps = 0;         ///< times a particle was put back behind a wall in this frame
+  double max_speed = 0.0;          ///< m/s, over the frame
+  double max_acceleration = 0.0;   ///< m/s^2, over the frame
+  bool time_step_limited = false;  ///< k_max_substeps left a step too long for the speeds that were met
 
   double density_error_mean = 0.0;  ///< mean of max(rho/rho0 - 1, 0) over active particles, last sub-step
   double density_error_max = 0.0;

@@ -117,7 +117,9 @@ class ReferenceSolver final : public Solver {
     report.neighbours_mean = active > 0 ? static_cast<double>(neighbours) / active : 0.0;
   }
 
-  PositionsView do_positions() override { return {delivered_.data(), 3, delivered_.size() / 3}; }
+  PositionsView do_positions() override {
+    return {delivered_.data(), PositionFormat::float32, 3 * sizeof(float), delivered_.size() / 3};
+  }
 
   Particles do_download() override {
     Particles particles;

@@ -22,9 +22,10 @@ constexpr std::array k_precisions{Name<Precision>{Precision::single_precision, "
                                   Name<Precision>{Precision::double_precision, "double"}};
 constexpr std::array k_simds{Name<Simd>{Simd::best, "best"}, Name<Simd>{Simd::scalar, "scalar"},
                              Name<Simd>{Simd::avx2, "avx2"}, Name<Simd>{Simd::avx512, "avx512"}};
-constexpr std::array k_readbacks{Name<Readback>{Readback::none, "none"}, Name<Readback>{Readback::blocking, "blocking"},
-                                 Name<Readback>{Readback::pinned, "pinned"},
-                                 Name<Readback>{Readback::mapped, "mapped"}};
+constexpr std::array k_readbacks{
+    Name<Readback>{Readback::none, "none"},     Name<Readback>{Readback::blocking, "blocking"},
+    Name<Readback>{Readback::pinned, "pinned"}, Name<Readback>{Readback::mapped, "mapped"},
+    Name<Readback>{Readback::async, "async"},   Name<Readback>{Readback::quantized, "quantized"}};
 
 template <class Choice, std::size_t count>
 const char* text_of(Choice choice, const std::array<Name<Choice>, count>& names) {
@@ -57,8 +58,6 @@ const char* to_string(Readback readback) { return text_of(readback, k_readbacks)
 Pressure pressure_from_text(const std::string& text) { return choice_of(text, k_pressures, "pressure", {"dfsph"}); }
 Precision precision_from_text(const std::string& text) { return choice_of(text, k_precisions, "precision", {}); }
 Simd simd_from_text(const std::string& text) { return choice_of(text, k_simds, "simd", {}); }
-Readback readback_from_text(const std::string& text) {
-  return choice_of(text, k_readbacks, "readback", {"async", "quantized"});
-}
+Readback readback_from_text(const std::string& text) { return choice_of(text, k_readbacks, "readback", {}); }
 
 }  // namespace squall

@@ -17,12 +17,14 @@ enum class Precision { single_precision, double_precision };
 /// (scalar 1, avx2 8, avx512 16; best: by the device).
 enum class Simd { best, scalar, avx2, avx512 };
 
-/// How positions reach the host (docs/architecture.md). Backends in host memory deliver in place, whatever the mode.
+/// How positions reach the host (docs/readback.md). Backends in host memory deliver in place, whatever the mode.
 enum class Readback {
-  none,      ///< not at all: state stays on the device
-  blocking,  ///< float4 into pageable memory after every sub-step: what the 2016 report did
-  pinned,    ///< float4 into a mapped, pinned buffer once per frame
-  mapped,    ///< the particle buffer itself, mapped: no copy where device and host share memory
+  none,       ///< not at all: state stays on the device
+  blocking,   ///< float4 into pageable memory after every sub-step: what the 2016 report did
+  pinned,     ///< float4 into a mapped, pinned buffer once per frame
+  mapped,     ///< the particle buffer itself, mapped: no copy where device and host share memory
+  async,      ///< float4 of the frame before, into pinned buffers in turn, while this frame computes
+  quantized,  ///< 16 bits per coordinate, made on the device: 6 bytes per particle
 };
 
 /// What a run is, beside its scene. The defaults are the best that this version has.

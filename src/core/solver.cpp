@@ -119,7 +119,10 @@ const FrameReport& Solver::advance(Delivery delivery) {
 
   const FramePlan plan = plan_frame(scene_, settings_, clock_);
   do_advance(plan, delivery, report_);
-  if (delivery == Delivery::positions) positions_ = do_positions();
+  if (delivery == Delivery::positions) {
+    positions_ = do_positions();
+    positions_.frame = plan.frame + 1 - static_cast<std::uint64_t>(report_.readback_latency_frames);
+  }
   report_.frame_ms = milliseconds_since(start);
 
   finish_report(plan);
@@ -137,6 +140,7 @@ void Solver::finish_report(const FramePlan& plan) {
   report_.dt_s = plan.dt;
   report_.compute_ms = report_.frame_ms - report_.upload_ms - report_.readback_ms;
   report_.particles = static_cast<std::int64_t>(count_);
+  report_.readback_bytes = positions_.count * positions_.position_bytes();
   report_.time_step_limited = plan.limited && plan.dt > time_step_limit(scene_, settings_.pressure, report_.max_speed);
   report_.container_displacement =
       container_displacement(scene_, static_cast<double>(plan.frame + 1) / scene_.time.frame_rate_hz);

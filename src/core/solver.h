@@ -8,6 +8,7 @@
 #include "core/frame_plan.h"
 #include "core/frame_report.h"
 #include "core/particles.h"
+#include "core/positions_view.h"
 #include "core/scene.h"
 #include "core/settings.h"
 
@@ -15,14 +16,6 @@ namespace squall {
 
 /// What the caller wants to read after a frame.
 enum class Delivery { nothing, positions };
-
-/// Positions where they lie: particle i has x, y, z at data[i * stride] onwards, in m, relative to the container's min
-/// corner. The last `lost` of the report are the lost ones. Valid until the next call on the solver.
-struct PositionsView {
-  const float* data = nullptr;
-  std::size_t stride = 4;  ///< in floats
-  std::size_t count = 0;
-};
 
 /// Everything that continues a run: load then run equals run, bit for bit, on every backend.
 struct State {
@@ -68,7 +61,8 @@ class Solver {
   /// One frame: rain, plan, sub-steps, delivery. Throws DeviceError if the device fails.
   const FrameReport& advance(Delivery delivery = Delivery::positions);
 
-  /// What the last advance() delivered; empty after Delivery::nothing.
+  /// What the last advance() delivered; empty after Delivery::nothing. With Readback::async, the state that the last
+  /// advance() began with: of the frame before, or what was loaded.
   PositionsView positions() const { return positions_; }
 
   /// Everything, copied to the host; not timed.
@@ -93,9 +87,9 @@ class Solver {
   /// Adds particles behind all others. Sum at most capacity().
   virtual void do_append(const Particles& particles) = 0;
   /// Runs the sub-steps of the plan and delivers positions if asked. Fills the report's counts, maxima, statistics,
-  /// phase_ms, readback_bytes, upload_ms and readback_ms.
+  /// phase_ms, upload_ms, readback_ms and what else is said of delivery, but for readback_bytes.
   virtual void do_advance(const FramePlan& plan, Delivery delivery, FrameReport& report) = 0;
-  /// Where the last do_advance delivered to.
+  /// Where the last do_advance delivered to; `frame` is filled in by the caller.
   virtual PositionsView do_positions() = 0;
   /// All particles in their current order.
   virtual Particles do_download() = 0;

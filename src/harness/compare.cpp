@@ -75,7 +75,7 @@ class Comparer {
     }
     result.agreement = check_.result();
     add_exposed_readback(result);
-    add_phases(result.rows);
+    add_profiles(result.rows);
     add_reference_errors(result.rows);
     return result;
   }
@@ -116,13 +116,9 @@ class Comparer {
     }
   }
 
-  void add_phases(std::vector<Row>& rows) const {
-    for (const auto& group : group_runs(plans_)) {
-      const std::size_t first = group.front();
-      if (!runs_[first] || !rows[first].error.empty()) continue;
-      const auto phases = profile_phases(make_, plans_[first], runs_[first]->state());
-      for (const std::size_t member : group) rows[member].phase_ms = phases;
-    }
+  void add_profiles(std::vector<Row>& rows) const {
+    for (std::size_t i = 0; i < plans_.size(); ++i)
+      if (runs_[i] && rows[i].error.empty()) add_profile(profile_run(make_, plans_[i], runs_[i]->state()), rows[i]);
   }
 
   void add_reference_errors(std::vector<Row>& rows) const {

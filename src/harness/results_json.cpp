@@ -45,6 +45,10 @@ void add_times(const Row& row, Json& json) {
   json["upload_ms"] = tail(row.upload_ms);
   json["readback_mode"] = readback_name(row);
   json["readback_bytes_per_frame"] = number(row.readback_bytes_per_frame);
+  json["readback_copied_bytes_per_frame"] = number(row.readback_copied_bytes_per_frame);
+  json["readback_latency_frames"] = row.readback_latency_frames;
+  if (row.readback_copy_ms) json["readback_copy_ms"] = number(row.readback_copy_ms);
+  if (row.readback_overlap) json["readback_overlap"] = number(row.readback_overlap);
   json["readback_share"] = number(row.readback_share);
   if (row.exposed_readback_ms) json["exposed_readback_ms"] = number(row.exposed_readback_ms);
   if (const auto& interval = row.exposed_readback_interval_ms)

@@ -33,12 +33,17 @@ void summarise_times(const std::vector<FrameRecord>& frames, Row& row) {
   row.realtime_factor = ratio(row.simulated_s, row.wall_s);
   row.fps = ratio(1000.0, row.frame_ms.median);
   row.readback_share = ratio(sum(readback), sum(frame));
+  const auto count = static_cast<double>(frames.size());
   row.readback_bytes_per_frame =
-      ratio(sum(collect(frames, [](const auto& report) { return static_cast<double>(report.readback_bytes); })),
-            static_cast<double>(frames.size()));
+      ratio(sum(collect(frames, [](const auto& report) { return static_cast<double>(report.readback_bytes); })), count);
+  row.readback_copied_bytes_per_frame =
+      ratio(sum(collect(frames, [](const auto& report) { return static_cast<double>(report.readback_copied_bytes); })),
+            count);
+  for (const auto& record : frames)
+    row.readback_latency_frames = std::max(row.readback_latency_frames, record.report.readback_latency_frames);
   double cpu = 0.0;
   for (const auto& record : frames) cpu += record.cpu_ms;
-  row.cpu_ms_mean = ratio(cpu, static_cast<double>(frames.size()));
+  row.cpu_ms_mean = ratio(cpu, count);
 }
 
 /// Means over particles and frames; each frame counts with its active particles, speeds also with its sub-steps.
@@ -65,6 +70,15 @@ void summarise_particles(const std::vector<FrameRecord>& frames, Row& row) {
 }
 
 }  // namespace
+
+void add_profile(const Profile& profile, Row& row) {
+  row.phase_ms = profile.phase_ms;
+  row.readback_copy_ms.reset();
+  row.readback_overlap.reset();
+  if (profile.phase_ms.empty()) return;
+  row.readback_copy_ms = profile.readback_copy_ms;
+  if (profile.readback_copy_ms > 0.0) row.readback_overlap = profile.readback_hidden_ms / profile.readback_copy_ms;
+}
 
 void summarise(const std::vector<FrameRecord>& frames, double frame_duration_s, Row& row) {
   row.frames = static_cast<int>(frames.size());

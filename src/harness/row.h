@@ -56,7 +56,11 @@ struct Row {
   double fps = 0.0;
   Tail frame_ms, compute_ms, readback_ms, upload_ms;
   double cpu_ms_mean = 0.0;
-  double readback_bytes_per_frame = 0.0;
+  double readback_bytes_per_frame = 0.0;         ///< delivered to the caller
+  double readback_copied_bytes_per_frame = 0.0;  ///< written to get them there
+  int readback_latency_frames = 0;
+  std::optional<double> readback_copy_ms;  ///< device time of the delivery per frame, from the profiled run
+  std::optional<double> readback_overlap;  ///< share of it beside the frame's other commands, 0 to 1
   double readback_share = 0.0;
   std::optional<double> exposed_readback_ms;  ///< against the same run without read-back; only where that took part
   std::optional<Interval> exposed_readback_interval_ms;
@@ -73,6 +77,15 @@ struct Row {
   std::uint64_t state_hash = 0;
   std::optional<double> position_error_dx;  ///< at the end, against the reference backend; only where that took part
 };
+
+/// What a profiled run gave: means per frame [ms].
+struct Profile {
+  std::map<std::string, double> phase_ms;
+  double readback_copy_ms = 0.0, readback_hidden_ms = 0.0;
+};
+
+/// Fills what follows from a profiled run.
+void add_profile(const Profile& profile, Row& row);
 
 /// Fills what follows from the counted frames.
 void summarise(const std::vector<FrameRecord>& frames, double frame_duration_s, Row& row);

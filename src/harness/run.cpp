@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/state_hash.h"
+#include "harness/delivered.h"
 #include "harness/measures.h"
 
 namespace squall::harness {
@@ -19,6 +20,14 @@ double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOC
 
 Delivery delivery_of(const Settings& settings) {
   return settings.readback == Readback::none ? Delivery::nothing : Delivery::positions;
+}
+
+/// Why positions are not those of the state; empty if they are, or none were asked for.
+std::string check_delivery(const Delivered& delivered, const State& state, const Settings& settings) {
+  if (delivery_of(settings) == Delivery::nothing) return "";
+  if (delivered.frame() != state.clock.frame)
+    return fmt::format("they are said to be of {} frames, the state is of {}", delivered.frame(), state.clock.frame);
+  return delivered.problem(state.particles);
 }
 
 std::string too_fast(const FrameReport& report, double frame_rate_hz) {
@@ -74,13 +83,18 @@ void Run::advance() {
   const double cpu_before = processor_ms();
   const FrameReport report = solver_->advance(delivery_of(plan_.settings));
   const double cpu_ms = processor_ms() - cpu_before;
+  const Delivered delivered(solver_->positions());  // before the state is asked for, which takes the view back
+  std::string delivery_problem = check_delivery(delivered, state_, plan_.settings);
   take_state();
+  if (!delivery_problem.empty()) delivery_problem = check_delivery(delivered, state_, plan_.settings);
   ++steps_done_;
   if (steps_done_ > plan_.warm_up_frames) {
     const double time_s = static_cast<double>(state_.clock.frame) / scene().time.frame_rate_hz;
     frames_.push_back({time_s, report, cpu_ms, state_hash_});
   }
   check_end_state(report);
+  if (error_.empty() && !delivery_problem.empty())
+    error_ = fmt::format("wrong positions are delivered with frame {}: {}", report.frame, delivery_problem);
 }
 
 void Run::take_state() {
@@ -130,22 +144,26 @@ Row run_once(std::unique_ptr<Solver> solver, const RunPlan& plan, const AfterFra
   return run.row();
 }
 
-std::map<std::string, double> profile_phases(const SolverFactory& make, RunPlan plan, const State& state) {
+Profile profile_run(const SolverFactory& make, RunPlan plan, const State& state) {
   if (plan.backend == "reference") return {};
   constexpr int k_frames = 4;
   const int frames = std::min(k_frames, plan.frames);
   plan.settings.profile = true;
-  std::map<std::string, double> sums;
+  Profile mean;
   try {
     const auto solver = make(plan);
     solver->restore(state);
     solver->advance(delivery_of(plan.settings));
-    for (int frame = 0; frame < frames; ++frame)
-      for (const auto& [phase, ms] : solver->advance(delivery_of(plan.settings)).phase_ms) sums[phase] += ms / frames;
+    for (int frame = 0; frame < frames; ++frame) {
+      const FrameReport report = solver->advance(delivery_of(plan.settings));
+      for (const auto& [phase, ms] : report.phase_ms) mean.phase_ms[phase] += ms / frames;
+      mean.readback_copy_ms += report.readback_copy_ms / frames;
+      mean.readback_hidden_ms += report.readback_hidden_ms / frames;
+    }
   } catch (const DeviceError&) {
     return {};
   }
-  return sums;
+  return mean;
 }
 
 }  // namespace squall::harness

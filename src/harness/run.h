@@ -10,7 +10,7 @@ namespace squall::harness {
 using SolverFactory = std::function<std::unique_ptr<Solver>(const RunPlan& plan)>;
 
 /// One run, advanced frame by frame, so that several can be interleaved. Between frames, untimed, it reads the whole
-/// state back and hashes it: the end state of every row is checked, never assumed.
+/// state back, hashes it and holds the positions delivered against it: what a row ends with is checked, never assumed.
 class Run {
  public:
   /// The solver holds the particles to start from. Throws InputError for fewer than one counted frame or a negative
@@ -62,9 +62,9 @@ using AfterFrame = std::function<bool(const Run& run)>;
 /// The one primitive: runs a plan to its end.
 Row run_once(std::unique_ptr<Solver> solver, const RunPlan& plan, const AfterFrame& after_frame = {});
 
-/// Mean time of each phase per frame [ms] over a few frames that continue from `state`, after one that is not counted.
-/// A run of its own, since measuring phases slows some devices down. Empty for the reference, which has no phases, and
-/// for a device that cannot be profiled: its timed frames stand.
-std::map<std::string, double> profile_phases(const SolverFactory& make, RunPlan plan, const State& state);
+/// Mean times per frame over a few frames that continue from `state`, after one that is not counted. A run of its own,
+/// since measuring phases slows some devices down. Empty for the reference, which has no phases, and for a device that
+/// cannot be profiled: its timed frames stand.
+Profile profile_run(const SolverFactory& make, RunPlan plan, const State& state);
 
 }  // namespace squall::harness

@@ -75,11 +75,16 @@ TEST(CompareCommand, EveryReadBackModeOfADeviceTakesPart) {
       squall({"compare", k_tiny, "--backend", "opencl", "--device", "0", "--frames", "6", "--json", "-"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json result = json::parse(outcome.out);
-  EXPECT_THAT(labels(result),
-              testing::ElementsAre("opencl 0, none", "opencl 0, blocking", "opencl 0, mapped", "opencl 0, pinned"));
+  EXPECT_THAT(labels(result), testing::ElementsAre("opencl 0, none", "opencl 0, blocking", "opencl 0, pinned",
+                                                   "opencl 0, mapped", "opencl 0, async", "opencl 0, quantized"));
   EXPECT_EQ(result["agreement"]["bitwise"], true);
   EXPECT_FALSE(result["runs"][0].contains("exposed_readback_ms"));
-  for (std::size_t i = 1; i < 4; ++i) {
+  EXPECT_FALSE(result["runs"][0].contains("readback_overlap")) << "there is no copy to hide";
+  EXPECT_EQ(result["runs"][4]["readback_latency_frames"], 1);
+  for (std::size_t i = 1; i < 6; ++i) {
+    EXPECT_GT(result["runs"][i]["readback_bytes_per_frame"], 0);
+    EXPECT_GE(result["runs"][i]["readback_copy_ms"], 0);
+    EXPECT_LE(result["runs"][i].value("readback_overlap", 0.0), 1.0);
     EXPECT_TRUE(result["runs"][i]["exposed_readback_ms"].is_number());
     EXPECT_LE(result["runs"][i]["exposed_readback_interval_ms"]["low"], result["runs"][i]["exposed_readback_ms"]);
   }

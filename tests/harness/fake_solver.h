@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/errors.h"
 #include "core/solver.h"
@@ -34,7 +35,8 @@ struct Faults {
   int differs_from = std::numeric_limits<int>::max();  ///< particle 5 is 0.01 m further in x
   int loses_at = std::numeric_limits<int>::max();
   int device_fails_at = std::numeric_limits<int>::max();
-  int hurries_from = std::numeric_limits<int>::max();  ///< reports 1e6 m/s, too fast for any number of sub-steps
+  int hurries_from = std::numeric_limits<int>::max();       ///< reports 1e6 m/s, too fast for any number of sub-steps
+  int delivers_wrong_at = std::numeric_limits<int>::max();  ///< position 7 is 0.01 m further in x than in the state
   bool states_not_finite = false;
 };
 
@@ -63,9 +65,19 @@ class FakeSolver final : public Solver {
     report.active = static_cast<std::int64_t>(particles_.size());
     report.neighbours_mean = 30.0;
     if (settings().profile) report.phase_ms["density"] = 3.0;
-    report.readback_bytes = delivery == Delivery::positions ? 1000 : 0;
+    if (settings().profile) report.readback_copy_ms = 2.0, report.readback_hidden_ms = 0.5;
+    if (delivery == Delivery::positions) deliver(frame, report);
   }
-  PositionsView do_positions() override { return {}; }
+  void deliver(int frame, FrameReport& report) {
+    delivered_.clear();
+    for (const auto& x : particles_.positions)
+      for (int axis = 0; axis < 3; ++axis) delivered_.push_back(static_cast<float>(x[axis]));
+    if (frame == faults_.delivers_wrong_at) delivered_[3 * 7] += 0.01f;
+    report.readback_copied_bytes = 1000;
+  }
+  PositionsView do_positions() override {
+    return {delivered_.data(), PositionFormat::float32, 3 * sizeof(float), delivered_.size() / 3};
+  }
   Particles do_download() override {
     Particles copy = particles_;
     if (faults_.states_not_finite) copy.velocities.front().x() = std::numeric_limits<double>::quiet_NaN();
@@ -74,6 +86,7 @@ class FakeSolver final : public Solver {
 
   Faults faults_;
   Particles particles_;
+  std::vector<float> delivered_;
 };
 
 inline std::unique_ptr<Solver> make_fake(const RunPlan& plan, Faults faults = {}) {

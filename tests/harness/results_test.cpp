@@ -51,6 +51,8 @@ TEST(Json, HasTheNamesOfTheResultFormat) {
                                                 "upload_ms",
                                                 "readback_mode",
                                                 "readback_bytes_per_frame",
+                                                "readback_copied_bytes_per_frame",
+                                                "readback_latency_frames",
                                                 "readback_share",
                                                 "phase_ms",
                                                 "particle_steps_per_s",

@@ -16,7 +16,9 @@ TEST(Run, CountsFramesAfterTheWarmUp) {
   EXPECT_EQ(row.particles, 64);
   EXPECT_DOUBLE_EQ(row.simulated_s, 0.6);
   EXPECT_GT(row.fps, 0.0);
-  EXPECT_EQ(row.readback_bytes_per_frame, 1000.0);
+  EXPECT_EQ(row.readback_bytes_per_frame, 64.0 * 12.0);
+  EXPECT_EQ(row.readback_copied_bytes_per_frame, 1000.0);
+  EXPECT_EQ(row.readback_latency_frames, 0);
   EXPECT_EQ(row.solver.device, "fake device");
 }
 
@@ -61,6 +63,18 @@ TEST(Run, LostParticlesMakeAnErrorRow) {
   EXPECT_EQ(row.lost_particles, 1);
   EXPECT_FALSE(row.device_failed);
   EXPECT_FALSE(row.interrupted);
+  EXPECT_EQ(row.frames, 3);
+}
+
+TEST(Run, WrongPositionsMakeAnErrorRow) {
+  const RunPlan plan = short_plan("fake");
+  Faults faults;
+  faults.delivers_wrong_at = 4;
+  const Row row = run_once(make_fake(plan, faults), plan);
+  EXPECT_NE(row.error.find("wrong positions are delivered with frame 4: particle 7 is off by 0.01 m"),
+            std::string::npos)
+      << row.error;
+  EXPECT_FALSE(row.device_failed);
   EXPECT_EQ(row.frames, 3);
 }
 
@@ -124,10 +138,19 @@ TEST(Profile, MeansPhasesOverFramesOfItsOwnRun) {
   const RunPlan plan = short_plan("fake");
   const auto start = make_fake(plan)->state();
   const auto make = [](const RunPlan& what) { return make_fake(what); };
-  const auto phases = profile_phases(make, plan, start);
-  ASSERT_EQ(phases.count("density"), 1u);
-  EXPECT_DOUBLE_EQ(phases.at("density"), 3.0);
-  EXPECT_TRUE(profile_phases(make, short_plan("fake", "reference"), start).empty());
+  const Profile profile = profile_run(make, plan, start);
+  ASSERT_EQ(profile.phase_ms.count("density"), 1u);
+  EXPECT_DOUBLE_EQ(profile.phase_ms.at("density"), 3.0);
+  Row row;
+  add_profile(profile, row);
+  EXPECT_DOUBLE_EQ(row.readback_copy_ms.value_or(0), 2.0);
+  EXPECT_DOUBLE_EQ(row.readback_overlap.value_or(0), 0.25);
+  const Profile none = profile_run(make, short_plan("fake", "reference"), start);
+  EXPECT_TRUE(none.phase_ms.empty());
+  add_profile(none, row);
+  EXPECT_TRUE(row.phase_ms.empty());
+  EXPECT_FALSE(row.readback_copy_ms);
+  EXPECT_FALSE(row.readback_overlap);
 }
 
 }  // namespace

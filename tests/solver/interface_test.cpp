@@ -34,9 +34,11 @@ TEST_P(Interface, DeliversThePositionsOfTheStateInItsOrder) {
     const FrameReport& report = solver->advance();
     const PositionsView view = solver->positions();
     ASSERT_EQ(static_cast<std::int64_t>(view.count), report.particles);
+    ASSERT_EQ(view.frame, solver->clock().frame);
+    ASSERT_EQ(report.readback_bytes, 12 * view.count);
     std::vector<float> delivered;
     for (std::size_t i = 0; i < view.count; ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis) delivered.push_back(view.data[i * view.stride + axis]);
+      for (int axis = 0; axis < 3; ++axis) delivered.push_back(view.position(i)[axis]);
     const Particles particles = solver->state().particles;
     ASSERT_EQ(particles.size(), view.count);
     for (std::size_t i = 0; i < view.count; ++i)
