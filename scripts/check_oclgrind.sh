@@ -13,16 +13,17 @@ command -v oclgrind >/dev/null || {
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
-check() {  # check SCENE SIMD OPTION...: kernels of one width
-  local scene=$1 simd=$2
-  shift 2
+check() {  # check SCENE SIMD READBACK OPTION...: kernels of one width and one read-back mode
+  local scene=$1 simd=$2 readback=$3
+  shift 3
   oclgrind --log "$out/log" --build-options -O1 --max-errors 20 "$@" \
-    "$squall" run "$scene" --backend opencl --simd "$simd" --frames 2 --quiet --json "$out/run.json"
+    "$squall" run "$scene" --backend opencl --simd "$simd" --readback "$readback" --frames 2 --quiet \
+    --json "$out/run.json"
   python3 - "$out/run.json" <<'PYTHON'
 import json, sys
 run = json.load(open(sys.argv[1]))["runs"][0]
 assert run["backend"] == "opencl" and "oclgrind" in run["device"].lower(), f"ran on {run['backend']}, {run['device']}"
-assert run["frames"] == 2 and run["particles"] > 0, run
+assert run["frames"] == 2 and run["particles"] > 0 and "error" not in run, run
 PYTHON
   if [ -s "$out/log" ]; then
     echo "error: oclgrind found:" >&2
@@ -33,7 +34,10 @@ PYTHON
 
 sed '/^\[\[rain\]\]/,$d' "$scene" >"$out/dry.toml"
 for simd in scalar avx2; do # a work-item per particle; blocks of eight
-  check "$scene" "$simd" --data-races
-  check "$out/dry.toml" "$simd" --data-races --uninitialized
+  check "$scene" "$simd" mapped --data-races
+  check "$out/dry.toml" "$simd" mapped --data-races --uninitialized
+done
+for readback in async quantized; do # the kernels that write positions, and the queue that async adds
+  check "$out/dry.toml" scalar "$readback" --data-races --uninitialized
 done
 echo "oclgrind found nothing"
