@@ -130,8 +130,10 @@ TEST(Quantized, ShowsWhatIsOutsideAtTheEndsOfTheRange) {
   records[4].x = {1e30f, 1e30f, 1e30f};
   Bench bench(Readback::quantized, records);
   const PositionsView view = bench.deliver(5);
-  const auto code = [&](std::size_t i, int axis) { return static_cast<const std::uint16_t*>(view.data)[3 * i + axis]; };
-  for (int axis = 0; axis < 3; ++axis) {
+  const auto code = [&](std::size_t i, std::size_t axis) {
+    return static_cast<const std::uint16_t*>(view.data)[3 * i + axis];
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     EXPECT_EQ(code(0, axis), 0);
     EXPECT_EQ(code(1, axis), 65534);
     EXPECT_EQ(code(2, axis), 65534);
