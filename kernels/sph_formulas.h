@@ -34,9 +34,12 @@ SQUALL_FORMULA Real cubic_value(Real u, Real w) {
 /* Cubic spline: dW/dr = -48/(pi H^4) * cubic_slope. */
 SQUALL_FORMULA Real cubic_slope(Real u, Real w) { return fms(u, u, w * w); }
 
-/* H^2 - r^2 as one chain, clamped at zero: what poly6 is made of. */
+/* H^2 - r^2 as one chain; what poly6 is made of is this clamped at zero. */
+SQUALL_FORMULA Real squared_support_difference(Real x, Real y, Real z, Real support_squared) {
+  return nfma(z, z, nfma(y, y, nfma(x, x, support_squared)));
+}
 SQUALL_FORMULA Real squared_support_left(Real x, Real y, Real z, Real support_squared) {
-  return max0(nfma(z, z, nfma(y, y, nfma(x, x, support_squared))));
+  return max0(squared_support_difference(x, y, z, support_squared));
 }
 
 /* Poly6: W = 315/(64 pi H^9) * poly6_value(H^2 - r^2). */

@@ -12,20 +12,21 @@ namespace squall::openmp {
 
 namespace {
 
+/// The same pointer, of which the compiler no longer knows that it is: what is read through it is read anew.
+template <class T>
+SQUALL_INLINE const T* reload(const T* pointer) {
+#if defined(__GNUC__)
+  asm volatile("" : "+r"(pointer));
+#endif
+  return pointer;
+}
+
 /// Up to Pack::k_lanes consecutive particles of one row of cells, one per lane.
 struct Block {
   int begin, end;  ///< sorted indices
   int row, cell_y, cell_z;
   int count() const { return end - begin; }
 };
-
-/// A field of the block's records, one lane each; lanes past the end hold whatever record comes next.
-template <class Pack>
-Pack gather(const Record* records, int begin, float Record::*field) {
-  alignas(64) float lanes[Pack::k_lanes];
-  for (int lane = 0; lane < Pack::k_lanes; ++lane) lanes[lane] = records[begin + lane].*field;
-  return Pack::load(lanes);
-}
 
 /// The block's part of an array with a value per sorted particle.
 template <class Pack>
@@ -48,17 +49,12 @@ void for_each_block(const PassContext& context, int first_row, int end_row, Visi
   }
 }
 
-/// A contiguous piece of the sorted order.
-struct Range {
-  int begin, end;
-};
-
 /// The candidates of a block: at most nine ranges, in canonical order. Returns how many; adds up their length in
 /// `total`.
 inline int candidate_ranges(const PassContext& context, const Block& block, Range* ranges, int& total) {
   const Params<float>& p = *context.params;
-  const int low = cell_coordinate(context.sorted[block.begin].x, p.inverse_edge_x, p.cells_x) - k_x_fineness;
-  const int high = cell_coordinate(context.sorted[block.end - 1].x, p.inverse_edge_x, p.cells_x) + k_x_fineness;
+  const int low = cell_coordinate(context.x[block.begin], p.inverse_edge_x, p.cells_x) - k_x_fineness;
+  const int high = cell_coordinate(context.x[block.end - 1], p.inverse_edge_x, p.cells_x) + k_x_fineness;
   const int first_x = low < 0 ? 0 : low;
   const int last_x = high < p.cells_x ? high : p.cells_x - 1;
   int count = 0;

@@ -15,43 +15,44 @@ int key_of(const Params<float>& p, std::span<const HeldGroup> held, const Record
   return cell_of(&p, record.x, record.y, record.z);
 }
 
-int share_begin(int total, int thread, int threads) { return static_cast<int>(std::int64_t{total} * thread / threads); }
-
 }  // namespace
 
 CountingSort::CountingSort(int cell_count, int threads)
     : keys_(cell_count + 2),
       counts_(static_cast<std::size_t>(threads)),
       sums_(static_cast<std::size_t>(threads)),
-      cell_start_(static_cast<std::size_t>(cell_count) + 3, 0) {
-  for (auto& counts : counts_) counts.assign(static_cast<std::size_t>(keys_), 0);
+      cell_start_(static_cast<std::size_t>(cell_count) + 3, 0) {}
+
+int* CountingSort::clear_counts(int thread) {
+  std::vector<int>& counts = counts_[static_cast<std::size_t>(thread)];
+  counts.assign(static_cast<std::size_t>(keys_), 0);  // the first time by the thread whose it is
+  return counts.data();
 }
 
-void CountingSort::count_cells(int thread, Chunk chunk, const Params<float>& p, std::span<const HeldGroup> held,
-                               const Record* from, const std::uint32_t* ids, int* cells) {
+void CountingSort::count(int thread, Range range, const Params<float>& p, std::span<const HeldGroup> held,
+                         const UnsortedParticles& from) {
   std::vector<int>& counts = counts_[static_cast<std::size_t>(thread)];
-  std::fill(counts.begin(), counts.end(), 0);
-  for (int i = chunk.begin; i < chunk.end; ++i) {
-    cells[i] = key_of(p, held, from[i], ids[i]);
-    ++counts[static_cast<std::size_t>(cells[i])];
+  for (int i = range.begin; i < range.end; ++i) {
+    from.keys[i] = key_of(p, held, from.records[i], from.ids[i]);
+    ++counts[static_cast<std::size_t>(from.keys[i])];
   }
 }
 
-void CountingSort::sum_cells(int thread, int threads) {
+void CountingSort::sum_keys(int thread, int threads) {
   int sum = 0;
-  const int end = share_begin(keys_, thread + 1, threads);
+  const Range share = share_of(keys_, thread, threads);
   for (int t = 0; t < threads; ++t) {
     const auto& counts = counts_[static_cast<std::size_t>(t)];
-    for (int key = share_begin(keys_, thread, threads); key < end; ++key) sum += counts[static_cast<std::size_t>(key)];
+    for (int key = share.begin; key < share.end; ++key) sum += counts[static_cast<std::size_t>(key)];
   }
   sums_[static_cast<std::size_t>(thread)] = sum;
 }
 
-void CountingSort::place_cells(int thread, int threads, int count) {
+void CountingSort::place_keys(int thread, int threads, int count) {
   int next = 0;
   for (int before = 0; before < thread; ++before) next += sums_[static_cast<std::size_t>(before)];
-  const int end = share_begin(keys_, thread + 1, threads);
-  for (int key = share_begin(keys_, thread, threads); key < end; ++key) {
+  const Range share = share_of(keys_, thread, threads);
+  for (int key = share.begin; key < share.end; ++key) {
     cell_start_[static_cast<std::size_t>(key)] = next;
     for (int t = 0; t < threads; ++t) {
       auto& counts = counts_[static_cast<std::size_t>(t)];
@@ -63,22 +64,22 @@ void CountingSort::place_cells(int thread, int threads, int count) {
   if (thread == threads - 1) cell_start_[static_cast<std::size_t>(keys_)] = count;
 }
 
-void CountingSort::sort(TeamBarrier& barrier, int thread, int count, const Params<float>& p,
-                        std::span<const HeldGroup> held, const Record* from, const std::uint32_t* from_ids, Record* to,
-                        std::uint32_t* to_ids, int* cells) {
+void CountingSort::sort(TeamBarrier& barrier, int thread, Range chunk, int count, const UnsortedParticles& from,
+                        const SortedParticles& to) {
   const int threads = barrier.threads();
-  const Chunk chunk{share_begin(count, thread, threads), share_begin(count, thread + 1, threads)};
-  count_cells(thread, chunk, p, held, from, from_ids, cells);
+  sum_keys(thread, threads);
   barrier.wait(thread);
-  sum_cells(thread, threads);
+  place_keys(thread, threads, count);
   barrier.wait(thread);
-  place_cells(thread, threads, count);
-  barrier.wait(thread);
-  std::vector<int>& next = counts_[static_cast<std::size_t>(thread)];
+  int* next = counts_[static_cast<std::size_t>(thread)].data();
   for (int i = chunk.begin; i < chunk.end; ++i) {
-    const int place = next[static_cast<std::size_t>(cells[i])]++;
-    to[place] = from[i];
-    to_ids[place] = from_ids[i];
+    const int place = next[from.keys[i]]++;
+    const Record record = from.records[i];
+    to.records[place] = record;
+    to.ids[place] = from.ids[i];
+    to.x[place] = record.x;
+    to.y[place] = record.y;
+    to.z[place] = record.z;
   }
   barrier.wait(thread);
 }

@@ -9,8 +9,25 @@
 
 namespace squall::openmp {
 
+/// Particles as they are before a sort, with the key (cell, held or lost) of each.
+struct UnsortedParticles {
+  const Record* records;
+  const std::uint32_t* ids;
+  int* keys;
+};
+
+/// Where sorted particles go: records, ids, and the coordinates once more, each in a row.
+struct SortedParticles {
+  Record* records;
+  std::uint32_t* ids;
+  float* x;
+  float* y;
+  float* z;
+};
+
 /// A stable counting sort by cell, run by a team of up to `threads` threads: each takes a contiguous chunk of the
-/// particles, counts its cells and scatters to where chunks before it and cells before end.
+/// particles, counts its cells and scatters to where chunks before it and cells before end. Chunks follow each other in
+/// the order of the threads.
 class CountingSort {
  public:
   CountingSort(int cell_count, int threads);
@@ -18,24 +35,32 @@ class CountingSort {
   /// Where each cell starts: cell_count + 3 entries (cells, held, lost, end). Valid after sort().
   const int* cell_start() const { return cell_start_.data(); }
 
-  /// Sorts `count` records and ids from `from` to `to`. Called by every thread of the barrier's team, each with its
-  /// number; waits there. Sorted on return, for every thread. `cells` has room for `count`.
-  void sort(TeamBarrier& barrier, int thread, int count, const Params<float>& p, std::span<const HeldGroup> held,
-            const Record* from, const std::uint32_t* from_ids, Record* to, std::uint32_t* to_ids, int* cells);
+  /// Forgets what the thread has counted. Returns its count per key, for whoever knows the keys already to fill.
+  int* clear_counts(int thread);
+
+  /// Writes the keys of a range of particles and adds them to what the thread has counted.
+  void count(int thread, Range range, const Params<float>& p, std::span<const HeldGroup> held,
+             const UnsortedParticles& from);
+
+  /// Sorts the first `count` particles. Called by every thread of the barrier's team once all of them have counted
+  /// their chunks and a barrier is behind that; waits there, too. Sorted on return, for every thread.
+  void sort(TeamBarrier& barrier, int thread, Range chunk, int count, const UnsortedParticles& from,
+            const SortedParticles& to);
 
  private:
-  struct Chunk {
-    int begin, end;
-  };
-  void count_cells(int thread, Chunk chunk, const Params<float>& p, std::span<const HeldGroup> held, const Record* from,
-                   const std::uint32_t* ids, int* cells);
-  void sum_cells(int thread, int threads);
-  void place_cells(int thread, int threads, int count);
+  void sum_keys(int thread, int threads);
+  void place_keys(int thread, int threads, int count);
 
   int keys_;                              ///< cells, held, lost
   std::vector<std::vector<int>> counts_;  ///< per thread and key: a count, then where the thread's next one goes
   std::vector<int> sums_;                 ///< per thread: particles in its share of the keys
   std::vector<int> cell_start_;
 };
+
+/// Share `part` of `parts` nearly equal contiguous shares of [0, total).
+inline Range share_of(int total, int part, int parts) {
+  const auto begin = [&](int index) { return static_cast<int>(std::int64_t{total} * index / parts); };
+  return {begin(part), begin(part + 1)};
+}
 
 }  // namespace squall::openmp

@@ -2,7 +2,9 @@
 
 // Included once per instruction set, after its Pack: kick, drift and the safety net of a block.
 
-#include "backend_omp/block-inl.h"
+#include <algorithm>
+
+#include "backend_omp/forces-inl.h"
 
 namespace squall::openmp {
 
@@ -29,15 +31,13 @@ void add_drag(const PassContext& context, const Block& block, const Pack* v, Pac
 template <class Pack>
 bool all_clear(const PassContext& context, Mask valid, const Pack* from, const Pack* to) {
   const Params<float>& p = *context.params;
-  const float sizes[3] = {p.size_x, p.size_y, p.size_z};
   const Pack edge(p.clamp_distance);
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool open = axis == 1 && p.lid == 0.0f;
-    const Pack top(open ? p.size_y + p.lost_distance : sizes[axis] - p.clamp_distance);
-    // Written so that NaN is not clear.
-    const Mask inside = (edge < to[axis]) & (to[axis] < top);
-    if (!all(inside, valid)) return false;
-  }
+  const float top = p.lid == 0.0f ? p.size_y + p.lost_distance : p.size_y - p.clamp_distance;
+  const float far_sides[3] = {p.size_x - p.clamp_distance, top, p.size_z - p.clamp_distance};
+  Mask inside = valid;
+  for (int axis = 0; axis < 3; ++axis)  // written so that NaN is not inside
+    inside = inside & (edge < to[axis]) & (to[axis] < Pack(far_sides[axis]));
+  if (!all(inside, valid)) return false;
   for (int b = 0; b < context.substep->box_count; ++b) {
     const Box<float>& box = context.boxes[b];
     Mask touched = valid;
@@ -50,9 +50,9 @@ bool all_clear(const PassContext& context, Mask valid, const Pack* from, const P
   return true;
 }
 
-/// Puts every particle of the block through keep_inside, one at a time. Returns the lanes that are left, as 0 or 1.
+/// Puts every particle of the block through keep_inside, one at a time. Returns the lanes that are not lost.
 template <class Pack>
-Pack keep_block_inside(const PassContext& context, const Block& block, const Pack* from, Pack* x, Pack* v,
+Mask keep_block_inside(const PassContext& context, const Block& block, const Pack* from, Pack* x, Pack* v,
                        PassResult& result) {
   alignas(64) float starts[3][Pack::k_lanes], ends[3][Pack::k_lanes], speeds[3][Pack::k_lanes], kept[Pack::k_lanes];
   for (int axis = 0; axis < 3; ++axis) {
@@ -79,48 +79,71 @@ Pack keep_block_inside(const PassContext& context, const Block& block, const Pac
     x[axis] = Pack::load(ends[axis]);
     v[axis] = Pack::load(speeds[axis]);
   }
-  return Pack::load(kept);
+  return Pack(0.0f) < Pack::load(kept);
 }
 
-/// Largest square of a vector over the lanes that are kept.
+/// Largest squares of velocity and acceleration of what a thread has moved, lane by lane.
 template <class Pack>
-void note_maximum(const Block& block, const float* kept, const Pack* vector, float& maximum) {
-  alignas(64) float squares[Pack::k_lanes];
-  squared_length(vector[0], vector[1], vector[2]).store(squares);
-  for (int lane = 0; lane < block.count(); ++lane)
-    if (kept[lane] > 0.0f && squares[lane] > maximum) maximum = squares[lane];
+struct Maxima {
+  Pack speed2{0.0f}, acceleration2{0.0f};
+
+  void note(Mask lanes, const Pack* v, const Pack* a) {
+    speed2 = larger(speed2, select(lanes, squared_length(v[0], v[1], v[2]), Pack(0.0f)));
+    acceleration2 = larger(acceleration2, select(lanes, squared_length(a[0], a[1], a[2]), Pack(0.0f)));
+  }
+  void report(PassResult& result) const {
+    result.max_speed2 = std::max(result.max_speed2, first_lane(largest_lane(speed2)));
+    result.max_acceleration2 = std::max(result.max_acceleration2, first_lane(largest_lane(acceleration2)));
+  }
+};
+
+/// Writes the block's records; none behind its end, which may be another thread's.
+template <class Pack>
+void write_records(const Block& block, const Pack* position, const Pack* velocity, Record* next) {
+  const Pack zero(0.0f);
+  const Pack fields[8] = {position[0], position[1], position[2], zero, velocity[0], velocity[1], velocity[2], zero};
+  Record part[Pack::k_lanes];
+  const bool full = block.count() == Pack::k_lanes;
+  auto* to = reinterpret_cast<float*>(full ? next + block.begin : part);
+  store_fields(to, 0, fields);
+  store_fields(to, 4, fields + 4);
+  if (!full) std::copy(part, part + block.count(), next + block.begin);
+}
+
+/// Notes in which cell each particle of the block is now; what is not in `kept` is lost.
+template <class Pack>
+void write_keys(const PassContext& context, const Block& block, const Pack* position, Mask kept, int* key_counts) {
+  const Params<float>& p = *context.params;
+  const auto x = cell_coordinates(position[0], p.inverse_edge_x, p.cells_x);
+  const auto y = cell_coordinates(position[1], p.inverse_edge_yz, p.cells_y);
+  const auto z = cell_coordinates(position[2], p.inverse_edge_yz, p.cells_z);
+  alignas(64) int keys[Pack::k_lanes];
+  select(kept, combine(combine(z, p.cells_y, y), p.cells_x, x), lost_cell(&p)).store(keys);
+  for (int lane = 0; lane < block.count(); ++lane) {
+    context.next_keys[block.begin + lane] = keys[lane];
+    ++key_counts[keys[lane]];
+  }
 }
 
 template <class Pack>
-void integrate_block(const PassContext& context, const Block& block, Pack x, Pack y, Pack z, Pack vx, Pack vy, Pack vz,
-                     Pack ax, Pack ay, Pack az, PassResult& result) {
+void integrate_block(const PassContext& context, const Block& block, const Lanes<Pack>& at, const Vector<Pack>& force,
+                     PassResult& result, Maxima<Pack>& maxima, int* key_counts) {
   const Substep<float>& substep = *context.substep;
-  const Pack from[3] = {x, y, z};
-  Pack to[3] = {x, y, z};
-  Pack v[3] = {vx, vy, vz};
-  Pack a[3] = {ax + Pack(substep.acceleration_x), ay + Pack(substep.acceleration_y), az + Pack(substep.acceleration_z)};
+  const Pack from[3] = {at.x(), at.y(), at.z()};
+  Pack to[3] = {at.x(), at.y(), at.z()};
+  Pack v[3] = {at.vx(), at.vy(), at.vz()};
+  Pack a[3] = {force.x + Pack(substep.acceleration_x), force.y + Pack(substep.acceleration_y),
+               force.z + Pack(substep.acceleration_z)};
   if (context.terms.drag) add_drag(context, block, v, a);
   for (int axis = 0; axis < 3; ++axis) {
     v[axis] = fma(Pack(substep.kick), a[axis], v[axis]);
     to[axis] = fma(Pack(substep.dt), v[axis], to[axis]);
   }
-  Pack kept(1.0f);
-  if (!all_clear(context, first_lanes(block.count()), from, to))
-    kept = keep_block_inside(context, block, from, to, v, result);
-
-  alignas(64) float kept_lanes[Pack::k_lanes];
-  kept.store(kept_lanes);
-  note_maximum(block, kept_lanes, v, result.max_speed2);
-  note_maximum(block, kept_lanes, a, result.max_acceleration2);
-
-  alignas(64) float positions[3][Pack::k_lanes], speeds[3][Pack::k_lanes];
-  for (int axis = 0; axis < 3; ++axis) {
-    to[axis].store(positions[axis]);
-    v[axis].store(speeds[axis]);
-  }
-  for (int lane = 0; lane < block.count(); ++lane)
-    context.next[block.begin + lane] = {positions[0][lane], positions[1][lane], positions[2][lane], 0.0f,
-                                        speeds[0][lane],    speeds[1][lane],    speeds[2][lane],    0.0f};
+  Mask kept = first_lanes(block.count());
+  if (!all_clear(context, kept, from, to)) kept = kept & keep_block_inside(context, block, from, to, v, result);
+  maxima.note(kept, v, a);
+  write_records(block, to, v, context.next);
+  write_keys(context, block, to, kept, key_counts);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include "backend_omp/counting_sort.h"
 #include "backend_omp/omp_backend.h"
 #include "backend_omp/passes.h"
+#include "backend_omp/row_split.h"
+#include "backend_omp/team_array.h"
 #include "grid.h"
 
 namespace squall::openmp {
@@ -88,25 +90,28 @@ class OmpSolver final : public Solver {
     for (std::size_t i = 0; i < particles.size(); ++i) {
       const Eigen::Vector3f x = particles.positions[i].cast<float>(), v = particles.velocities[i].cast<float>();
       state_[first + i] = {x.x(), x.y(), x.z(), 0.0f, v.x(), v.y(), v.z(), 0.0f};
-      state_ids_[first + i] = particles.ids[i];
+      ids_[ids_now_][first + i] = particles.ids[i];
       lost_ += is_lost(x.x());
     }
   }
 
   /// Room for `count` particles and the padding behind them, which lies far away from everything.
   void resize(std::size_t count) {
-    const Record far{
-        SQUALL_LOST_COORDINATE, SQUALL_LOST_COORDINATE, SQUALL_LOST_COORDINATE, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    constexpr float k_far = SQUALL_LOST_COORDINATE;
+    const Record far{k_far, k_far, k_far, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     const std::size_t padded = count + k_padding;
-    state_.resize(padded);
-    sorted_.resize(padded);
-    std::fill(sorted_.begin() + static_cast<std::ptrdiff_t>(count), sorted_.end(), far);
-    state_ids_.resize(padded);
-    sorted_ids_.resize(padded);
-    cells_.resize(padded);
-    density_.resize(padded, 1.0f);
-    if (terms_.pressure == Pressure::mueller) pressure_.resize(padded, 0.0f);
-    if (terms_.drag) isolation_.resize(padded, 0.0f);
+    state_.resize(padded, far, threads_);
+    sorted_.resize(padded, far, threads_);
+    std::fill(sorted_.data() + count, sorted_.data() + padded, far);
+    for (auto* coordinates : {&x_, &y_, &z_}) {
+      coordinates->resize(padded, k_far, threads_);
+      std::fill(coordinates->data() + count, coordinates->data() + padded, k_far);
+    }
+    for (auto& ids : ids_) ids.resize(padded, 0, threads_);
+    keys_.resize(padded, 0, threads_);
+    density_.resize(padded, 1.0f, threads_);
+    if (terms_.pressure == Pressure::mueller) pressure_.resize(padded, 0.0f, threads_);
+    if (terms_.drag) isolation_.resize(padded, 0.0f, threads_);
     count_ = count;
   }
 
@@ -124,49 +129,86 @@ class OmpSolver final : public Solver {
       barrier_.resize(omp_get_num_threads());
       const int thread = omp_get_thread_num();
       barrier_.enter(thread);
-      for (const auto& substep : substeps) advance_substep(thread, substep, clock);
+      const std::size_t done = advance_thread(thread, substeps, clock);
+#pragma omp single
+      ids_now_ = (ids_now_ + done) % 2;
     }
     largest_team_ = std::max(largest_team_, barrier_.threads());
     fill_report(report);
   }
 
-  void advance_substep(int thread, const Substep<float>& substep, PhaseClock& clock) {
-    const auto t = static_cast<std::size_t>(thread);
-    if (substep.released_count > 0) release(thread, substep);
-    const std::span<const HeldGroup> held(held_groups().data(), static_cast<std::size_t>(substep.held_count));
-    sort_.sort(barrier_, thread, static_cast<int>(count_), p_, held, state_.data(), state_ids_.data(), sorted_.data(),
-               sorted_ids_.data(), cells_.data());
-    if (thread == 0) clock.finish("sort");
-    const PassContext context{
-        &p_,           &substep,        boxes_.data(),    terms_,           sort_.cell_start(), sorted_.data(),
-        state_.data(), density_.data(), pressure_.data(), isolation_.data()};
-    const int first_row = row_split(thread), end_row = row_split(thread + 1);
-    passes_.density(context, first_row, end_row, lists_[t]);
-    barrier_.wait(thread);
-    if (thread == 0) clock.finish("density");
-    if (!any_out_of_memory()) {
-      if (substep.statistics != 0) passes_.statistics(context, first_row, end_row, lists_[t], results_[t]);
-      passes_.forces(context, first_row, end_row, lists_[t], results_[t]);
+  /// A frame as one thread of the team sees it. Returns how many sub-steps were done: all of them, unless memory ran
+  /// out.
+  std::size_t advance_thread(int thread, const std::vector<Substep<float>>& substeps, PhaseClock& clock) {
+    const auto count = static_cast<int>(count_);
+    Range chunk = share_of(count, thread, barrier_.threads());
+    for (std::size_t s = 0; s < substeps.size(); ++s) {
+      const auto& ids = ids_[(ids_now_ + s) % 2];
+      auto& sorted_ids = ids_[(ids_now_ + s + 1) % 2];
+      if (substeps[s].released_count > 0) release(thread, substeps[s], ids);
+      const UnsortedParticles from{state_.data(), ids.data(), keys_.data()};
+      if (s == 0) {
+        sort_.clear_counts(thread);
+        sort_.count(thread, chunk, p_, held_in(substeps[s]), from);
+        barrier_.wait(thread);
+      }
+      sort_.sort(barrier_, thread, chunk, count, from,
+                 {sorted_.data(), sorted_ids.data(), x_.data(), y_.data(), z_.data()});
+      if (thread == 0) clock.finish("sort");
+      const Range rows = split_rows(sort_.cell_start(), p_, passes_.lanes, thread, barrier_.threads());
+      find_densities(thread, substeps[s], rows);
+      if (thread == 0) clock.finish("density");
+      if (any_out_of_memory()) return s;
+      chunk = move_particles(thread, substeps[s], rows);
+      // What is held or lost stays as it is, but may be held no longer. Its keys are counted after those of the rows.
+      if (thread == barrier_.threads() - 1 && s + 1 < substeps.size())
+        sort_.count(thread, {sort_.cell_start()[p_.cell_count], count}, p_, held_in(substeps[s + 1]),
+                    {state_.data(), sorted_ids.data(), keys_.data()});
+      barrier_.wait(thread);
+      if (thread == 0) clock.finish("forces");
     }
-    if (thread == barrier_.threads() - 1) copy_inactive();
-    barrier_.wait(thread);
-    if (thread == 0) {
-      std::swap(state_ids_, sorted_ids_);
-      clock.finish("forces");
-    }
+    return substeps.size();
+  }
+
+  std::span<const HeldGroup> held_in(const Substep<float>& substep) const {
+    return {held_groups().data(), static_cast<std::size_t>(substep.held_count)};
+  }
+
+  PassContext context(const Substep<float>& substep) {
+    return {&p_,       &substep,  boxes_.data(), terms_,       sort_.cell_start(), sorted_.data(),   x_.data(),
+            y_.data(), z_.data(), state_.data(), keys_.data(), density_.data(),    pressure_.data(), isolation_.data()};
+  }
+
+  void find_densities(int thread, const Substep<float>& substep, Range rows) {
+    passes_.density(context(substep), rows.begin, rows.end, lists_[static_cast<std::size_t>(thread)]);
     barrier_.wait(thread);
   }
 
+  /// Forces and all that follows. Returns the thread's chunk of the next sort: its rows, and for the last thread also
+  /// what is held or lost.
+  Range move_particles(int thread, const Substep<float>& substep, Range rows) {
+    const auto t = static_cast<std::size_t>(thread);
+    const PassContext all = context(substep);
+    int* key_counts = sort_.clear_counts(thread);
+    if (substep.statistics != 0) passes_.statistics(all, rows.begin, rows.end, lists_[t], results_[t]);
+    passes_.forces(all, rows.begin, rows.end, lists_[t], results_[t], key_counts);
+    const int* start = sort_.cell_start();
+    Range chunk{start[rows.begin * p_.cells_x], start[rows.end * p_.cells_x]};
+    if (thread == barrier_.threads() - 1) {
+      chunk.end = static_cast<int>(count_);
+      copy_inactive();
+    }
+    return chunk;
+  }
+
   /// Particles freed now start with half a kick, like everything at the start: the other half is taken back.
-  void release(int thread, const Substep<float>& substep) {
+  void release(int thread, const Substep<float>& substep, const TeamArray<std::uint32_t>& ids) {
     const float half = substep.previous_dt * p_.one_half;
-    const auto team = static_cast<std::size_t>(barrier_.threads());
-    const std::size_t begin = count_ * static_cast<std::size_t>(thread) / team;
-    const std::size_t end = count_ * static_cast<std::size_t>(thread + 1) / team;
+    const Range share = share_of(static_cast<int>(count_), thread, barrier_.threads());
     for (int g = substep.held_count; g < substep.held_count + substep.released_count; ++g) {
       const HeldGroup& group = held_groups()[static_cast<std::size_t>(g)];
-      for (std::size_t i = begin; i < end; ++i) {
-        if (state_ids_[i] < group.first_id || state_ids_[i] >= group.end_id) continue;
+      for (auto i = static_cast<std::size_t>(share.begin); i < static_cast<std::size_t>(share.end); ++i) {
+        if (ids[i] < group.first_id || ids[i] >= group.end_id) continue;
         state_[i].vx = nfma(half, substep.acceleration_x, state_[i].vx);
         state_[i].vy = nfma(half, substep.acceleration_y, state_[i].vy);
         state_[i].vz = nfma(half, substep.acceleration_z, state_[i].vz);
@@ -175,30 +217,10 @@ class OmpSolver final : public Solver {
     barrier_.wait(thread);
   }
 
-  /// Row at which a thread's share begins: the same split in every pass, by particle count.
-  int row_split(int thread) const {
-    const int rows = p_.cells_y * p_.cells_z;
-    if (thread == 0) return 0;
-    if (thread == barrier_.threads()) return rows;
-    const int* start = sort_.cell_start();
-    const auto target = static_cast<int>(std::int64_t{start[p_.cell_count]} * thread / barrier_.threads());
-    int low = 0, high = rows;
-    while (low < high) {
-      const int middle = (low + high) / 2;
-      if (start[middle * p_.cells_x] < target)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-    return low;
-  }
-
   /// Held and lost particles stay as they are.
   void copy_inactive() {
     const auto first = static_cast<std::size_t>(sort_.cell_start()[p_.cell_count]);
-    std::copy(sorted_.begin() + static_cast<std::ptrdiff_t>(first),
-              sorted_.begin() + static_cast<std::ptrdiff_t>(count_),
-              state_.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy(sorted_.data() + first, sorted_.data() + count_, state_.data() + first);
   }
 
   bool any_out_of_memory() const {
@@ -237,7 +259,7 @@ class OmpSolver final : public Solver {
     particles.reserve(count_);
     for (std::size_t i = 0; i < count_; ++i) {
       const Record& r = state_[i];
-      particles.add(state_ids_[i], Eigen::Vector3f(r.x, r.y, r.z).cast<double>(),
+      particles.add(ids_[ids_now_][i], Eigen::Vector3f(r.x, r.y, r.z).cast<double>(),
                     Eigen::Vector3f(r.vx, r.vy, r.vz).cast<double>());
     }
     return particles;
@@ -256,10 +278,12 @@ class OmpSolver final : public Solver {
   std::vector<PassResult> results_;   ///< per thread
   std::size_t count_ = 0;
   std::int64_t lost_ = 0;
-  std::vector<Record> state_, sorted_;  ///< between sub-steps; within one, in canonical order
-  std::vector<std::uint32_t> state_ids_, sorted_ids_;
-  std::vector<int> cells_;
-  std::vector<float> density_, pressure_, isolation_;
+  TeamArray<Record> state_, sorted_;  ///< between sub-steps; within one, in canonical order
+  TeamArray<std::uint32_t> ids_[2];   ///< take turns: the sort reads one and writes the other
+  std::size_t ids_now_ = 0;           ///< which of the two belongs to state_
+  TeamArray<float> x_, y_, z_;        ///< coordinates of sorted_
+  TeamArray<int> keys_;               ///< of state_
+  TeamArray<float> density_, pressure_, isolation_;
 };
 
 }  // namespace

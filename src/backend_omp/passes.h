@@ -17,6 +17,11 @@ struct alignas(32) Record {
 };
 static_assert(sizeof(Record) == 32);
 
+/// Indices [begin, end).
+struct Range {
+  int begin, end;
+};
+
 /// Records behind the last one, far away, so that a block may load lanes it does not have.
 inline constexpr int k_padding = 64;
 
@@ -35,10 +40,14 @@ struct PassContext {
   PassTerms terms;
   const int* cell_start;  ///< cell_count + 3
   Record* sorted;         ///< in canonical order
-  Record* next;           ///< where the state after the sub-step goes, same order
-  float* density;         ///< relative, per sorted particle
-  float* pressure;        ///< p/rho0 [m^2/s^2], per sorted particle; mueller only
-  float* isolation;       ///< per sorted particle; with drag only
+  const float* x;         ///< the coordinates of `sorted` once more, each in a row
+  const float* y;
+  const float* z;
+  Record* next;      ///< where the state after the sub-step goes, same order
+  int* next_keys;    ///< likewise: the key of each for the sort that follows
+  float* density;    ///< relative, per sorted particle
+  float* pressure;   ///< p/rho0 [m^2/s^2], per sorted particle; mueller only
+  float* isolation;  ///< per sorted particle; with drag only
 };
 
 /// What a thread finds out about its rows.
@@ -54,10 +63,12 @@ struct PassResult {
 
 /// The passes for one instruction set, over rows [first, end).
 struct Passes {
+  int lanes;  ///< particles per block
   /// Finds neighbours (into `list`, from its beginning) and computes density, pressure and the terms neighbours need.
   void (*density)(const PassContext&, int first_row, int end_row, NeighbourList& list);
-  /// Accelerations from the same lists, then kick, drift and the safety net.
-  void (*forces)(const PassContext&, int first_row, int end_row, const NeighbourList& list, PassResult& result);
+  /// Accelerations from the same lists, then kick, drift and the safety net. Adds particles to `key_counts`.
+  void (*forces)(const PassContext&, int first_row, int end_row, const NeighbourList& list, PassResult& result,
+                 int* key_counts);
   /// Counts neighbours within H and sums density errors, from the same lists.
   void (*statistics)(const PassContext&, int first_row, int end_row, const NeighbourList& list, PassResult& result);
 };

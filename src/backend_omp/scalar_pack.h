@@ -1,5 +1,6 @@
 #pragma once
 
+#include "grid.h"
 #include "shared.h"
 
 namespace squall::openmp {
@@ -40,6 +41,34 @@ struct Pack {
 inline Pack smaller(Pack a, Pack b) { return a.lane < b.lane ? a : b; }
 inline Pack larger(Pack a, Pack b) { return a.lane < b.lane ? b : a; }
 inline Mask first_lanes(int count) { return {count > 0}; }
+inline Pack select(Mask m, Pack yes, Pack no) { return m.lane ? yes : no; }
+inline float first_lane(Pack a) { return a.lane; }
+inline Pack smallest_lane(Pack a) { return a; }
+inline Pack largest_lane(Pack a) { return a; }
+
+inline int append_lanes(int* list, int first, Mask m, int limit) {
+  *list = first;
+  return m.lane && limit > 0 ? 1 : 0;
+}
+
+inline void load_fields(const float* records, int first, Pack* fields) {
+  for (int f = 0; f < 4; ++f) fields[f] = Pack(records[first + f]);
+}
+inline void store_fields(float* records, int first, const Pack* fields) {
+  for (int f = 0; f < 4; ++f) records[first + f] = fields[f].lane;
+}
+
+inline void broadcast_fields(const float* record, int first, Pack* fields) { load_fields(record, first, fields); }
+
+struct Cells {
+  int lane;
+  void store(int* to) const { *to = lane; }
+};
+inline Cells cell_coordinates(Pack coordinate, float inverse_edge, int cells) {
+  return {cell_coordinate(coordinate.lane, inverse_edge, cells)};
+}
+inline Cells select(Mask m, Cells yes, int no) { return {m.lane ? yes.lane : no}; }
+inline Cells combine(Cells a, int factor, Cells b) { return {a.lane * factor + b.lane}; }
 
 }  // namespace
 

@@ -43,10 +43,18 @@ TEST_P(OmpSort, IsTheStableSort) {
   openmp::TeamBarrier barrier(threads);
   std::vector<Record> sorted(records.size());
   std::vector<std::uint32_t> sorted_ids(ids.size());
-  std::vector<int> cells(ids.size());
+  std::vector<int> keys(ids.size());
+  std::vector<float> x(ids.size()), y(ids.size()), z(ids.size());
+  const openmp::UnsortedParticles from{records.data(), ids.data(), keys.data()};
 #pragma omp parallel num_threads(threads)
-  sort.sort(barrier, omp_get_thread_num(), count, p, held, records.data(), ids.data(), sorted.data(), sorted_ids.data(),
-            cells.data());
+  {
+    const int thread = omp_get_thread_num();
+    const openmp::Range chunk = openmp::share_of(count, thread, threads);
+    sort.clear_counts(thread);
+    sort.count(thread, chunk, p, held, from);
+    barrier.wait(thread);
+    sort.sort(barrier, thread, chunk, count, from, {sorted.data(), sorted_ids.data(), x.data(), y.data(), z.data()});
+  }
 
   const auto key = [&](std::uint32_t id) {
     const Record& record = records[id];
@@ -56,7 +64,11 @@ TEST_P(OmpSort, IsTheStableSort) {
   std::vector<std::uint32_t> expected = ids;
   std::stable_sort(expected.begin(), expected.end(), [&](auto a, auto b) { return key(a) < key(b); });
   ASSERT_EQ(sorted_ids, expected);
-  for (std::size_t i = 0; i < sorted.size(); ++i) ASSERT_EQ(sorted[i].x, records[expected[i]].x);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const Record& record = records[expected[i]];
+    ASSERT_EQ(std::tie(sorted[i].x, sorted[i].y, sorted[i].z), std::tie(record.x, record.y, record.z));
+    ASSERT_EQ(std::tie(x[i], y[i], z[i]), std::tie(record.x, record.y, record.z));
+  }
   for (int cell = 0; cell <= p.cell_count + 2; ++cell) {
     const auto first = std::partition_point(expected.begin(), expected.end(), [&](auto id) { return key(id) < cell; });
     ASSERT_EQ(sort.cell_start()[cell], first - expected.begin()) << "cell " << cell;
