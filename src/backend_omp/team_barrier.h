@@ -1,15 +1,17 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 
 #include "backend_omp/thread_spread.h"
 
 namespace squall::openmp {
 
-/// A barrier for the threads of one team. It spins for some microseconds, the length of a well-balanced pass's
-/// imbalance, and then sleeps: OpenMP runtimes spin for milliseconds, which stalls the team whenever another process
-/// has one of its cores.
+/// A barrier for the threads of one team. It spins for a fraction of a millisecond and then sleeps. OpenMP runtimes
+/// spin for many milliseconds, which stalls the team whenever another process has one of its cores. Where one has,
+/// sleeping at once is as bad: the thread on the shared core gives it away while it waits for another that is waking
+/// up, and gets it back only when the other process has had its turn.
 class TeamBarrier {
  public:
   explicit TeamBarrier(int threads) : threads_(threads), spread_(threads) {}
@@ -31,16 +33,21 @@ class TeamBarrier {
       phase_.notify_all();
       return;
     }
-    for (int spin = 0; spin < k_spins; ++spin) {
-      if (phase_.load(std::memory_order_acquire) != phase) return;
-      pause();
-    }
+    const auto deadline = std::chrono::steady_clock::now() + k_spin_time;
+    do {
+      for (int spin = 0; spin < k_spins_per_look; ++spin) {
+        if (phase_.load(std::memory_order_acquire) != phase) return;
+        pause();
+      }
+    } while (std::chrono::steady_clock::now() < deadline);
     while (phase_.load(std::memory_order_acquire) == phase) phase_.wait(phase, std::memory_order_acquire);
     spread_.settle(thread);
   }
 
  private:
-  static constexpr int k_spins = 1000;
+  /// Longer than a sleeping thread takes to wake up (some 100 us in a virtual machine).
+  static constexpr std::chrono::microseconds k_spin_time{250};
+  static constexpr int k_spins_per_look = 64;  ///< at the clock
 
   static void pause() {
 #if defined(__x86_64__)
