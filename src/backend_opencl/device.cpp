@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <exception>
+#include <map>
+#include <mutex>
+#include <utility>
 
 #include "backend_opencl/errors.h"
 #include "backend_opencl/opencl_backend.h"
@@ -91,19 +94,48 @@ std::size_t find_wanted(const std::vector<DeviceInfo>& devices, const std::strin
   return devices.size();
 }
 
-/// Part of a CPU device with this many compute units; the whole where the device cannot be divided.
-cl::Device limit_threads(cl::Device device, int threads) {
-  const auto units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-  if (threads <= 0 || static_cast<cl_uint>(threads) >= units) return device;
-  const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS, threads,
+/// Part of a device with this many compute units; empty where the device cannot be divided.
+cl::Device divide(cl::Device device, int units) {
+  const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS, units,
                                                     CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
   std::vector<cl::Device> parts;
   try {
     device.createSubDevices(by_counts, &parts);
   } catch (const cl::Error&) {
-    return device;
+    return {};
   }
-  return parts.empty() ? device : parts.front();
+  return parts.empty() ? cl::Device() : parts.front();
+}
+
+/// Parts of devices, made once and kept until the process ends, as whole devices are. A worker thread of PoCL 3.1 still
+/// reads the device of an event after it has called it complete, and nothing tells when it is done: a part that went
+/// with its solver would now and then be gone by then.
+class KeptParts {
+ public:
+  cl::Device part_of(const cl::Device& device, int units) {
+    const std::lock_guard lock(mutex_);
+    cl::Device& part = parts_[{device(), units}];
+    if (part() == nullptr) part = divide(device, units);
+    return part;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::pair<cl_device_id, int>, cl::Device> parts_;
+};
+
+KeptParts& kept_parts() {
+  // Never destroyed: drivers may be gone when static objects are.
+  static KeptParts* const parts = new KeptParts;
+  return *parts;
+}
+
+/// Part of a CPU device with this many compute units; the whole where the device cannot be divided.
+cl::Device limit_threads(const cl::Device& device, int threads) {
+  const auto units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  if (threads <= 0 || static_cast<cl_uint>(threads) >= units) return device;
+  const cl::Device part = kept_parts().part_of(device, threads);
+  return part() == nullptr ? device : part;
 }
 
 std::string mebibytes(cl_ulong bytes) { return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB"; }
