@@ -8,5 +8,6 @@ namespace squall::app {
 int command_devices(const Options& options);
 int command_run(const Options& options);
 int command_compare(const Options& options);
+int command_sweep(const Options& options);
 
 }  // namespace squall::app

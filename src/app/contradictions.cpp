@@ -13,7 +13,7 @@ namespace {
 /// The backends that take part as far as the options say.
 std::vector<std::string> backends_of(const Options& options) {
   if (!options.backends.empty()) return options.backends;
-  if (options.command == Command::compare) return {"omp", "opencl"};
+  if (options.command == Command::compare || options.command == Command::sweep) return {"omp", "opencl"};
   return {options.device.empty() ? "omp" : "opencl"};
 }
 

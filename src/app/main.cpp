@@ -19,6 +19,8 @@ int run_command(const Options& options) {
       return command_run(options);
     case Command::compare:
       return command_compare(options);
+    case Command::sweep:
+      return command_sweep(options);
   }
   return k_exit_internal;
 }

@@ -26,7 +26,7 @@ struct Raw {
   std::string simd, precision, pressure, format = "squall";
 };
 
-constexpr const char* k_later_commands[] = {"sweep", "agree", "study", "stress", "cost", "validate", "view"};
+constexpr const char* k_later_commands[] = {"agree", "study", "stress", "cost", "validate", "view"};
 constexpr const char* k_later_options[] = {"--fast-math",        "--tune",    "--trace",     "--checkpoint",
                                            "--checkpoint-every", "--restart", "--tolerance", "--max-error"};
 
@@ -63,26 +63,37 @@ void add_output_options(CLI::App& command, Options& options) {
   command.add_flag("--quiet", options.quiet, "No progress bar and no notes on stderr")->envname("SQUALL_QUIET");
 }
 
-void add_water_options(CLI::App& command, Options& options, Raw& raw) {
-  command.add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
-  add(command, "--pressure", raw.pressure, "mueller or wcsph; else what the scene says, else wcsph")->type_name("NAME");
+void add_particles(CLI::App& command, Options& options) {
   add(command, "--particles", options.particles, "Change the spacing so that about N particles result")
       ->check(CLI::Range(std::int64_t{1}, scene_keys::k_max_particles))
       ->type_name("N");
+}
+
+void add_water_options(CLI::App& command, Options& options, Raw& raw) {
+  command.add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  add(command, "--pressure", raw.pressure, "mueller or wcsph; else what the scene says, else wcsph")->type_name("NAME");
   add(command, "--dt-max", options.dt_max_s, "Longest sub-step [s]; else the scene's")
       ->check(within(1e-7, 1.0))
       ->type_name("S");
   add(command, "--seed", options.seed, "Of the rain (1)")->check(unsigned_number())->type_name("N");
 }
 
-void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
+void add_solver_options(CLI::App& command, Raw& raw) {
   add(command, "--simd", raw.simd,
       "scalar, avx2 or avx512: width of omp's vectors (else the widest there is) and of opencl's (else by device)")
       ->type_name("NAME");
   add(command, "--precision", raw.precision, "reference: single or double (its default); the others are single")
       ->type_name("NAME");
+}
+
+void add_length_options(CLI::App& command, Options& options) {
   add(command, "--frames", options.frames, "Frames to measure")->check(CLI::Range(1, 10'000'000))->type_name("N");
   add(command, "--seconds", options.seconds, "The same as simulated time [s]")->check(positive())->type_name("S");
+}
+
+void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
+  add_solver_options(command, raw);
+  add_length_options(command, options);
   add(command, "--budget-ms", options.budget_ms, "Exit 7 if the 95th percentile of frame time exceeds this")
       ->check(positive())
       ->type_name("F");
@@ -94,6 +105,7 @@ void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
 CLI::App* add_run(CLI::App& app, Options& options, Raw& raw) {
   CLI::App* run = app.add_subcommand("run", "Run a scene on one backend; frames to disk if asked");
   add_water_options(*run, options, raw);
+  add_particles(*run, options);
   add(*run, "--backend", raw.backends, "reference, omp or opencl (omp; opencl with --device)")
       ->expected(1)
       ->type_name("NAME");
@@ -116,22 +128,51 @@ CLI::App* add_run(CLI::App& app, Options& options, Raw& raw) {
   return run;
 }
 
+CLI::Option* list(CLI::Option* option, const char* name) {
+  return option->delimiter(',')->allow_extra_args(false)->take_all()->type_name(name);
+}
+
+/// Which runs stand side by side; what is taken where nothing is asked for differs between commands.
+void add_lists_of_runs(CLI::App& command, Options& options, Raw& raw, const char* threads, const char* readbacks) {
+  list(add(command, "--backend", raw.backends, "Only these; may be repeated (omp, opencl)"), "NAME[,NAME]");
+  add(command, "--device", options.device, "Only OpenCL devices with this index or part of the name")
+      ->type_name("DEVICE");
+  list(add(command, "--threads", options.threads, threads), "N[,N]")->check(CLI::Range(1, 1024));
+  list(add(command, "--readback", raw.readbacks, readbacks), "MODE[,MODE]");
+}
+
 CLI::App* add_compare(CLI::App& app, Options& options, Raw& raw) {
   CLI::App* compare = app.add_subcommand("compare", "Every backend and device side by side, and whether they agree");
   add_water_options(*compare, options, raw);
-  const auto list = [](CLI::Option* option, const char* name) {
-    return option->delimiter(',')->allow_extra_args(false)->take_all()->type_name(name);
-  };
-  list(add(*compare, "--backend", raw.backends, "Only these; may be repeated (omp, opencl)"), "NAME[,NAME]");
-  add(*compare, "--device", options.device, "Only OpenCL devices with this index or part of the name")
-      ->type_name("DEVICE");
-  list(add(*compare, "--threads", options.threads, "Thread counts (omp: 1 and all)"), "N[,N]")
-      ->check(CLI::Range(1, 1024));
-  list(add(*compare, "--readback", raw.readbacks, "Only these read-back modes (all)"), "MODE[,MODE]");
+  add_particles(*compare, options);
+  add_lists_of_runs(*compare, options, raw, "Thread counts (omp: 1 and all)", "Only these read-back modes (all)");
   add_measuring_options(*compare, options, raw);
   add_output_options(*compare, options);
   add_later_options(*compare);
   return compare;
+}
+
+CLI::App* add_sweep(CLI::App& app, Options& options, Raw& raw) {
+  CLI::App* sweep =
+      app.add_subcommand("sweep", "Frames per second and speed-up against particles, threads and backend");
+  add_water_options(*sweep, options, raw);
+  list(add(*sweep, "--particles", options.sizes,
+           "Sizes to measure, each the nearest that the scene scales to (doubling from above 1,000 for 2 minutes)"),
+       "N[,N]")
+      ->check(CLI::Range(std::int64_t{1}, scene_keys::k_max_particles));
+  add_lists_of_runs(*sweep, options, raw, "Thread counts (omp: 1, 2, 4, ... and all)",
+                    "Read-back modes of opencl (mapped on CPU devices, else pinned)");
+  add_solver_options(*sweep, raw);
+  add_length_options(*sweep, options);
+  add(*sweep, "--budget-ms", options.budget_ms,
+      "Search the largest scene whose median frame time keeps this; exit 7 if none does")
+      ->check(positive())
+      ->type_name("F");
+  add(*sweep, "--out", options.out, "Folder for report.html, plots (gnuplot), points.csv and sweep.json")
+      ->type_name("DIR");
+  add_output_options(*sweep, options);
+  add_later_options(*sweep);
+  return sweep;
 }
 
 bool on_command_line(int argc, char** argv, const std::string& name) {
@@ -176,11 +217,11 @@ void understand(const Raw& raw, Options& options) {
 
 /// The parser would only say that a command is required.
 void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2) throw UsageError("a command is missing; there are devices, run, compare");
+  if (argc < 2) throw UsageError("a command is missing; there are devices, run, compare, sweep");
   const std::string name = argv[1];
   const auto commands = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
   if (name.rfind('-', 0) != 0 && commands.empty())
-    throw UsageError(fmt::format("the command '{}' is unknown; there are devices, run, compare", name));
+    throw UsageError(fmt::format("the command '{}' is unknown; there are devices, run, compare, sweep", name));
 }
 
 /// The parser would read variables for the commands that are not carried out, too, into the same options.
@@ -207,6 +248,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
   add_output_options(*devices, options);
   CLI::App* run = add_run(app, options, raw);
   CLI::App* compare = add_compare(app, options, raw);
+  CLI::App* sweep = add_sweep(app, options, raw);
   for (const char* name : k_later_commands)
     app.add_subcommand(name, "not in this version")->group("")->allow_extras()->set_help_flag();
   check_command(app, argc, argv);
@@ -220,8 +262,8 @@ std::optional<Options> parse_options(int argc, char** argv) {
   }
   for (const char* name : k_later_commands)
     if (app.got_subcommand(name)) throw UsageError(fmt::format("the command '{}' is not in this version", name));
-  options.command = *devices ? Command::devices : *run ? Command::run : Command::compare;
-  if (!*devices) refuse_later_options(*run ? *run : *compare);
+  options.command = *devices ? Command::devices : *run ? Command::run : *compare ? Command::compare : Command::sweep;
+  if (!*devices) refuse_later_options(*run ? *run : *compare ? *compare : *sweep);
   understand(raw, options);
   settle_length(argc, argv, options);
   const auto is_flag = [&](const std::string& option) { return on_command_line(argc, argv, option); };

@@ -10,7 +10,7 @@
 
 namespace squall::app {
 
-enum class Command { devices, run, compare };
+enum class Command { devices, run, compare, sweep };
 enum class Format { squall, google_benchmark };
 
 /// The command line and SQUALL_* variables, checked. Empty or absent: not given.
@@ -25,6 +25,7 @@ struct Options {
   std::optional<Pressure> pressure;
   std::vector<Readback> readbacks;
   std::optional<std::int64_t> particles;
+  std::vector<std::int64_t> sizes;  ///< sweep: its --particles
   std::optional<int> frames;
   std::optional<double> seconds;
   std::optional<double> dt_max_s;

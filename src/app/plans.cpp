@@ -97,11 +97,29 @@ std::string default_backend(const Options& options, const std::vector<BackendInf
   return "omp";
 }
 
-/// Thread counts to compare omp with: as asked, else 1 and all.
+/// Thread counts to measure omp with: as asked, else 1 and all; a sweep also takes the powers of two between.
 std::vector<int> omp_threads(const Options& options, const BackendInfo& omp) {
   if (!options.threads.empty()) return options.threads;
   const int all = omp.devices.empty() ? 1 : omp.devices.front().compute_units;
-  return all > 1 ? std::vector<int>{1, all} : std::vector<int>{1};
+  std::vector<int> counts{1};
+  if (options.command == Command::sweep)
+    for (int count = 2; count < all; count *= 2) counts.push_back(count);
+  if (all > 1) counts.push_back(all);
+  return counts;
+}
+
+/// Read-back modes to measure a device with: as asked, else all; a sweep takes the one that should suit it best.
+std::vector<Readback> readbacks_for(const Options& options, const DeviceInfo& device) {
+  static constexpr Readback k_all[] = {Readback::none,   Readback::blocking, Readback::pinned,
+                                       Readback::mapped, Readback::async,    Readback::quantized};
+  // Mapping copies nothing where host and device share memory; elsewhere pinned copies half as much.
+  if (options.readbacks.empty() && options.command == Command::sweep)
+    return {device.kind == "cpu" ? Readback::mapped : Readback::pinned};
+  std::vector<Readback> modes;
+  for (const Readback mode : k_all)
+    if (options.readbacks.empty() || std::count(options.readbacks.begin(), options.readbacks.end(), mode) > 0)
+      modes.push_back(mode);
+  return modes;
 }
 
 class ComparisonPlanner {
@@ -156,11 +174,7 @@ class ComparisonPlanner {
     }
   }
   void add_device(const DeviceInfo& device, int threads) {
-    static constexpr Readback k_all[] = {Readback::none,   Readback::blocking, Readback::pinned,
-                                         Readback::mapped, Readback::async,    Readback::quantized};
-    const auto& asked_for = options_.readbacks;
-    for (const Readback mode : k_all) {
-      if (!asked_for.empty() && std::count(asked_for.begin(), asked_for.end(), mode) == 0) continue;
+    for (const Readback mode : readbacks_for(options_, device)) {
       RunPlan plan = base_plan(options_, workload_, "opencl");
       plan.settings.device = std::to_string(device.index);
       plan.settings.threads = threads;
@@ -203,6 +217,14 @@ Plans plan_comparison(const Options& options, const Workload& workload, const st
   const auto& asked = options.backends;
   refuse_double(options, std::count(asked.begin(), asked.end(), "reference") > 0);
   return ComparisonPlanner(options, workload, backends).plan();
+}
+
+Plans plan_sweep(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
+  Plans plans = plan_comparison(options, workload, backends);
+  constexpr int k_frames = 30;  // several sizes have to share the user's patience
+  if (!options.frames && !options.seconds)
+    for (auto& plan : plans.plans) plan.frames = k_frames;
+  return plans;
 }
 
 const DeviceInfo& device_of(const RunPlan& plan, const std::vector<BackendInfo>& backends) {

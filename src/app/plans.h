@@ -25,6 +25,10 @@ harness::RunPlan plan_run(const Options& options, const Workload& workload, cons
 /// plan_run.
 Plans plan_comparison(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends);
 
+/// The plans of `squall sweep`: omp with 1, 2, 4, ... and all threads, each OpenCL device with the read-back that
+/// should suit it best, or what the options ask for; 30 frames unless they ask for others. Throws like plan_run.
+Plans plan_sweep(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends);
+
 /// The device that a plan runs on.
 const DeviceInfo& device_of(const harness::RunPlan& plan, const std::vector<BackendInfo>& backends);
 

@@ -19,18 +19,26 @@ Progress::~Progress() {
 }
 
 void Progress::update(int done, int total) {
+  if (total <= 0) return;
+  const double share = static_cast<double>(done) / total;
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double left_s = done > 0 ? elapsed_s * (1.0 - share) / share : 0.0;
+  draw(share, fmt::format("{} of {} frames", done, total), left_s);
+}
+
+void Progress::update(double share, const std::string& doing, double left_s) { draw(share, doing, left_s); }
+
+void Progress::draw(double share, const std::string& doing, double left_s) {
   constexpr std::chrono::milliseconds k_redraw_after{100};
   const auto now = Clock::now();
-  if (!shown_ || total <= 0 || (now - last_ < k_redraw_after && done < total)) return;
+  if (!shown_ || (now - last_ < k_redraw_after && share < 1.0)) return;
   last_ = now;
-  const double share = static_cast<double>(done) / total;
-  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  const auto left_s = static_cast<int>(done > 0 ? elapsed_s * (1.0 - share) / share + 0.5 : 0.0);
   constexpr int k_width = 30;
-  const auto filled = static_cast<std::size_t>(share * k_width);
+  const auto filled = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * k_width);
   const std::string bar = std::string(filled, '#') + std::string(k_width - filled, '.');
-  const std::string line = fmt::format("\r{} [{}] {:3.0f} %  {} of {} frames, {}:{:02} left\x1b[K", what_, bar,
-                                       100.0 * share, done, total, left_s / 60, left_s % 60);
+  const auto seconds = static_cast<int>(std::min(left_s + 0.5, 359999.0));
+  const std::string line = fmt::format("\r{} [{}] {:3.0f} %  {}, {}:{:02} left\x1b[K", what_, bar, 100.0 * share, doing,
+                                       seconds / 60, seconds % 60);
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }

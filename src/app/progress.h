@@ -14,8 +14,11 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(int done, int total);
+  /// For work that is not all frames alike: the share done in [0, 1], what is being done, seconds left.
+  void update(double share, const std::string& doing, double left_s);
 
  private:
+  void draw(double share, const std::string& doing, double left_s);
   using Clock = std::chrono::steady_clock;
   bool shown_;
   std::string what_;

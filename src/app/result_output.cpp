@@ -10,8 +10,6 @@
 
 namespace squall::app {
 
-namespace {
-
 harness::Context context_of(const std::vector<BackendInfo>& backends, const std::vector<harness::Row>& rows) {
   harness::Context context = harness::collect_context();
   for (const auto& row : rows)
@@ -22,12 +20,9 @@ harness::Context context_of(const std::vector<BackendInfo>& backends, const std:
   return context;
 }
 
-}  // namespace
-
 void write_json(const Options& options, const harness::Json& json) {
   if (options.json.empty()) return;
-  // A scene's file name need not be UTF-8.
-  const std::string text = json.dump(2, ' ', false, harness::Json::error_handler_t::replace) + "\n";
+  const std::string text = harness::json_text(json);
   if (options.json_alone()) {
     std::cout << text << std::flush;
     return;

@@ -15,6 +15,9 @@ namespace squall::app {
 /// Writes JSON where --json asks for it, if it does. Throws InputError for a file that cannot be written.
 void write_json(const Options& options, const harness::Json& json);
 
+/// Where and with what the rows were measured.
+harness::Context context_of(const std::vector<BackendInfo>& backends, const std::vector<harness::Row>& rows);
+
 /// The result in the shape of --format, where --json asks for it.
 void write_result(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends,
                   const std::vector<harness::Row>& rows, const std::optional<harness::Agreement>& agreement);

@@ -27,12 +27,16 @@ void protect(const char* option, const fs::path& target, const std::vector<std::
 
 }  // namespace
 
-void protect_inputs(const Options& options, const Workload& workload) {
+void protect_inputs(const Options& options, const Workload& workload, const std::vector<fs::path>& out_files) {
   std::vector<std::string> inputs{options.scene};
   for (const auto& file : workload.scene.particle_files) inputs.push_back(file.file);
   if (!options.json.empty() && !options.json_alone()) protect("--json", options.json, inputs);
-  if (options.out.empty()) return;
-  for (const auto& file : OutputFolder::own_files(options.out)) protect("--out", file, inputs);
+  for (const auto& file : out_files) protect("--out", file, inputs);
+}
+
+void protect_inputs(const Options& options, const Workload& workload) {
+  protect_inputs(options, workload,
+                 options.out.empty() ? std::vector<fs::path>{} : OutputFolder::own_files(options.out));
 }
 
 void check_json_target(const Options& options) {

@@ -1,12 +1,18 @@
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "app/options.h"
 #include "app/workload.h"
 
 namespace squall::app {
 
 /// Refuses, before anything is written, --out and --json that would destroy the scene file or a particle file of it
-/// (UsageError).
+/// (UsageError). `out_files`: what the command writes into the folder of --out.
+void protect_inputs(const Options& options, const Workload& workload,
+                    const std::vector<std::filesystem::path>& out_files);
+/// The same for the commands that write an OutputFolder.
 void protect_inputs(const Options& options, const Workload& workload);
 
 /// Throws InputError if the file of --json cannot be written; leaves what it holds alone. Folder of --out first.

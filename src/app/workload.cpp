@@ -23,6 +23,13 @@ Workload load_workload(const Options& options) {
   return workload;
 }
 
+Workload scaled(const Workload& workload, std::int64_t particles) {
+  Workload result = workload;
+  scale_to_particles(result.scene, particles);
+  result.info = {result.scene.name, scene_hash(result.scene), particle_capacity(result.scene)};
+  return result;
+}
+
 std::string headline(const Workload& workload) {
   const Scene& scene = workload.scene;
   return fmt::format("{}: {} particles{}, spacing {:.4g} mm, {}", scene.name, with_commas(workload.info.particles),

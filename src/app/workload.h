@@ -19,6 +19,9 @@ struct Workload {
 /// Loads the scene and applies --particles, --dt-max and --pressure, which win over what it says. Throws InputError.
 Workload load_workload(const Options& options);
 
+/// The workload at the size nearest to this many particles. Throws InputError if its scene cannot be scaled.
+Workload scaled(const Workload& workload, std::int64_t particles);
+
 /// One line about the scene: name, particles, spacing, pressure solver.
 std::string headline(const Workload& workload);
 

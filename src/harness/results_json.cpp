@@ -69,39 +69,6 @@ void add_water(const Row& row, Json& json) {
   if (row.position_error_dx) json["position_error_dx"] = number(row.position_error_dx);
 }
 
-Json run_json(const Row& row) {
-  Json json = identity(row);
-  if (has_numbers(row)) {
-    add_times(row, json);
-    add_water(row, json);
-  }
-  if (!row.error.empty()) json["error"] = row.error;
-  if (row.interrupted) json["interrupted"] = true;
-  json["clamps"] = row.clamps;
-  json["lost_particles"] = row.lost_particles;
-  json["state_hash"] = hash_text(row.state_hash);
-  return json;
-}
-
-Json agreement_json(const std::optional<Agreement>& agreement) {
-  if (!agreement) return nullptr;
-  Json json;
-  json["bitwise"] = agreement->bitwise ? Json(*agreement->bitwise) : Json(nullptr);
-  json["first_difference_frame"] =
-      agreement->first_difference_frame ? Json(*agreement->first_difference_frame) : Json(nullptr);
-  const auto& difference = agreement->difference;
-  json["first_difference_particle"] = difference ? Json(difference->particle) : Json(nullptr);
-  const bool compared = agreement->bitwise.has_value();
-  json["max_position_error_dx"] = difference ? number(difference->max_position_error_dx)
-                                  : compared ? Json(0.0)
-                                             : Json(nullptr);
-  json["max_velocity_error"] = difference ? number(difference->max_velocity_error)
-                               : compared ? Json(0.0)
-                                          : Json(nullptr);
-  json["verdict"] = agreement->verdict;
-  return json;
-}
-
 }  // namespace
 
 std::string readback_name(const Row& row) {
@@ -119,6 +86,39 @@ Json to_json(const DeviceInfo& device) {
           {"compute_units", device.compute_units},
           {"bitwise", device.bitwise},
           {"problem", device.problem}};
+}
+
+Json to_json(const Row& row) {
+  Json json = identity(row);
+  if (has_numbers(row)) {
+    add_times(row, json);
+    add_water(row, json);
+  }
+  if (!row.error.empty()) json["error"] = row.error;
+  if (row.interrupted) json["interrupted"] = true;
+  json["clamps"] = row.clamps;
+  json["lost_particles"] = row.lost_particles;
+  json["state_hash"] = hash_text(row.state_hash);
+  return json;
+}
+
+Json to_json(const std::optional<Agreement>& agreement) {
+  if (!agreement) return nullptr;
+  Json json;
+  json["bitwise"] = agreement->bitwise ? Json(*agreement->bitwise) : Json(nullptr);
+  json["first_difference_frame"] =
+      agreement->first_difference_frame ? Json(*agreement->first_difference_frame) : Json(nullptr);
+  const auto& difference = agreement->difference;
+  json["first_difference_particle"] = difference ? Json(difference->particle) : Json(nullptr);
+  const bool compared = agreement->bitwise.has_value();
+  json["max_position_error_dx"] = difference ? number(difference->max_position_error_dx)
+                                  : compared ? Json(0.0)
+                                             : Json(nullptr);
+  json["max_velocity_error"] = difference ? number(difference->max_velocity_error)
+                               : compared ? Json(0.0)
+                                          : Json(nullptr);
+  json["verdict"] = agreement->verdict;
+  return json;
 }
 
 Json to_json(const Context& context) {
@@ -148,10 +148,12 @@ Json to_json(const Context& context, const SceneInfo& scene, const std::vector<R
   json["context"] = to_json(context);
   json["scene"] = {{"name", scene.name}, {"hash", scene.hash}, {"particles", scene.particles}};
   json["runs"] = Json::array();
-  for (const auto& row : rows) json["runs"].push_back(run_json(row));
-  json["agreement"] = agreement_json(agreement);
+  for (const auto& row : rows) json["runs"].push_back(to_json(row));
+  json["agreement"] = to_json(agreement);
   return json;
 }
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json to_google_benchmark(const Context& context, const SceneInfo& scene, const std::vector<Row>& rows) {
   Json json;

@@ -31,6 +31,13 @@ Json to_json(const Context& context, const SceneInfo& scene, const std::vector<R
 
 Json to_json(const Context& context);
 Json to_json(const DeviceInfo& device);
+/// One entry of `runs`.
+Json to_json(const Row& row);
+/// `agreement`; null without one.
+Json to_json(const std::optional<Agreement>& agreement);
+
+/// JSON as a file: two spaces of indentation; text that is not UTF-8, like the name of a scene's file, is replaced.
+std::string json_text(const Json& json);
 
 /// The shape that Google Benchmark's tools/compare.py reads: one benchmark per row, real_time the median frame.
 Json to_google_benchmark(const Context& context, const SceneInfo& scene, const std::vector<Row>& rows);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "harness/sweep_report.h"
+#include "harness/sweep_results.h"
+
+namespace squall::app {
+
+/// The folder of `sweep --out`: report.html, a file per plot, points.csv and sweep.json. Made if missing; files of
+/// these names from an earlier sweep are removed. Throws InputError for what cannot be written.
+class SweepFolder {
+ public:
+  explicit SweepFolder(const std::string& path);
+
+  /// Paths in this folder that are the names above, whether there or not.
+  static std::vector<std::filesystem::path> own_files(const std::filesystem::path& folder);
+
+  /// Adds a size to points.csv at once, so that it is there whatever happens later.
+  void add_points(const std::vector<harness::SweepPoint>& points);
+  /// Draws the plots and writes the rest. Throws DeviceError if gnuplot does not draw; sweep.json is written before.
+  void finish(const harness::SweepResult& result);
+
+ private:
+  void write(const std::string& name, const std::string& text) const;
+
+  std::filesystem::path path_;
+  std::ofstream points_;
+};
+
+}  // namespace squall::app
