@@ -20,6 +20,13 @@ const SweepPoint* find_point(const Sweep& sweep, const SizeInfo& size, const std
   return found == sweep.points.end() ? nullptr : &*found;
 }
 
+std::string fit_text(BudgetFit fit) {
+  return fit == BudgetFit::all      ? "all"
+         : fit == BudgetFit::none   ? "none"
+         : fit == BudgetFit::within ? "some"
+                                    : "not measured";
+}
+
 template <class Cell>
 ResultTable size_table(const SweepResult& result, const std::string& title, Cell cell) {
   ResultTable table{title, {"particles"}, {}};
@@ -95,9 +102,9 @@ ResultTable lead_table(const SweepResult& result) {
 
 ResultTable budget_table(const SweepResult& result) {
   ResultTable table{
-      "largest scene within the budget", {"run", "particles", "frame ms", "p95", "interpolated", "verdict"}, {}};
+      "largest scene within the budget", {"run", "particles", "frame ms", "p95", "interpolated", "sizes that fit"}, {}};
   for (const auto& entry : result.sweep.budget) {
-    std::vector<std::string> cells{entry.label, k_nothing, k_nothing, k_nothing, k_nothing, entry.verdict};
+    std::vector<std::string> cells{entry.label, k_nothing, k_nothing, k_nothing, k_nothing, fit_text(entry.fit)};
     if (entry.largest) {
       const Row& row = entry.largest->row;
       cells[1] = count_text(entry.largest->size, row.particles) + (entry.fit == BudgetFit::all ? " or more" : "");
