@@ -37,8 +37,8 @@ struct Vector {
   }
 };
 
-/// What the loops over neighbours read anew for each of them, from the first-level cache: there are more constants than
-/// registers, and a compiler left alone keeps them and spills the sums.
+/// What the loops over neighbours need beside the neighbour. Where there are fewer registers than that, it is read anew
+/// for each neighbour, from the first-level cache: a compiler left alone keeps constants and spills the sums.
 template <class Pack>
 struct LoopConstants {
   Pack inverse_support, inverse_half_support, one, softening, tiny, artificial_scale, viscosity_scale;
@@ -57,7 +57,30 @@ struct LoopConstants {
         vz(a.vz()),
         pressure(pressure),
         volume(a.volume_term()) {}
+
+  const LoopConstants& ready() const { return Pack::k_many_registers ? *this : *reload(this); }
 };
+
+/// -(v_i - v_j) . (x_i - x_j). Here and in add_velocity the difference is taken in whichever order brings the
+/// neighbour's velocity straight from memory; the bits are the same.
+template <class Pack>
+Pack closing_speed(const LoopConstants<Pack>& c, const Record& b, Pack dx, Pack dy, Pack dz) {
+  const Pack vx(b.vx), vy(b.vy), vz(b.vz);
+  if constexpr (Pack::k_many_registers)
+    return nfma(c.vz - vz, dz, nfma(c.vy - vy, dy, nfma(c.vx - vx, dx, Pack(0.0f))));
+  else
+    return dot_product(dx, dy, dz, vx - c.vx, vy - c.vy, vz - c.vz);
+}
+
+/// sum + s (v_j - v_i)
+template <class Pack>
+void add_velocity(const LoopConstants<Pack>& c, const Record& b, Pack s, Vector<Pack>& sum) {
+  const Pack vx(b.vx), vy(b.vy), vz(b.vz);
+  if constexpr (Pack::k_many_registers)
+    sum = {nfma(s, c.vx - vx, sum.x), nfma(s, c.vy - vy, sum.y), nfma(s, c.vz - vz, sum.z)};
+  else
+    sum.add_scaled(s, vx - c.vx, vy - c.vy, vz - c.vz);
+}
 
 template <class Pack, bool viscous>
 Vector<Pack> wcsph_acceleration(const PassContext& context, const Block& block, const Lanes<Pack>& a, const int* list,
@@ -67,14 +90,14 @@ Vector<Pack> wcsph_acceleration(const PassContext& context, const Block& block, 
   const LoopConstants<Pack> constants(p, a, a.pressure_term());
   Vector<Pack> sum;
   for (int k = 0; k < count; ++k) {
-    const LoopConstants<Pack>& c = *reload(&constants);
+    const LoopConstants<Pack>& c = constants.ready();
     const Record& b = context.sorted[list[k]];
     const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
     const Pack r2 = squared_length(dx, dy, dz);
     const Pack r = sqrt(r2);
     const Pack u = remaining_support(r, c.inverse_support);
     const Pack w = remaining_support(r, c.inverse_half_support);
-    const Pack closing = dot_product(dx, dy, dz, Pack(b.vx) - c.vx, Pack(b.vy) - c.vy, Pack(b.vz) - c.vz);
+    const Pack closing = closing_speed(c, b, dx, dy, dz);
     Pack shear = c.artificial_scale * max0(closing);
     if constexpr (viscous) shear = fma(c.viscosity_scale, closing, shear);
     sum.add_scaled(wcsph_pair(r, r2, cubic_slope(u, w), Pack(b.pressure_term) + c.pressure,
@@ -97,15 +120,14 @@ Vector<Pack> mueller_acceleration(const PassContext& context, const Block& block
   const LoopConstants<Pack> constants(p, a, pressure);
   Vector<Pack> push, drag;
   for (int k = 0; k < count; ++k) {
-    const LoopConstants<Pack>& c = *reload(&constants);
+    const LoopConstants<Pack>& c = constants.ready();
     const Record& b = context.sorted[list[k]];
     const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
     const Pack r = sqrt(squared_length(dx, dy, dz));
     const Pack u = remaining_support(r, c.inverse_support);
     const Pack volume(b.volume_term);
     push.add_scaled(mueller_pair(r, u, c.pressure, volume, Pack(b.pressure_term), c.tiny), dx, dy, dz);
-    if constexpr (viscous)
-      drag.add_scaled(viscosity_laplacian(u) * volume, Pack(b.vx) - c.vx, Pack(b.vy) - c.vy, Pack(b.vz) - c.vz);
+    if constexpr (viscous) add_velocity(c, b, viscosity_laplacian(u) * volume, drag);
   }
   const Opening<Pack> walls = opening(context, SQUALL_SPIKY, false, first_lanes(block.count()), x, y, z);
   const auto total = [&](Pack pushed, Pack gradient, Pack dragged) {

@@ -28,6 +28,7 @@ HWY_INLINE bool all(Mask m, Mask valid) { return hn::AllFalse(Floats(), hn::AndN
 
 struct Pack {
   static constexpr int k_lanes = HWY_LANES(float);
+  static constexpr bool k_many_registers = HWY_STATIC_TARGET <= HWY_AVX3;
   hn::Vec<Floats> lanes;
 
   Pack() = default;

@@ -19,6 +19,7 @@ inline bool all(Mask m, Mask valid) { return m.lane || !valid.lane; }
 
 struct Pack {
   static constexpr int k_lanes = 1;
+  static constexpr bool k_many_registers = false;
   float lane;
 
   Pack() = default;
