@@ -44,7 +44,15 @@ SQUALL_STRUCT(Params) {
   Scalar stiffness;        /* wcsph: c^2/7; mueller: k; m^2/s^2 */
   Scalar tension;          /* 1 keeps negative pressure, 0 clamps it */
   Scalar artificial_scale; /* wcsph: alpha (H/2) c / 2, m^2/s */
-  Scalar viscosity_scale;  /* wcsph: 5 nu; mueller: 2 nu dx^3 45/(pi H^5) */
+  Scalar viscosity_scale;  /* wcsph: 5 nu; mueller: 2 nu dx^3 45/(pi H^5); dfsph: 10 nu */
+
+  /* dfsph (dfsph_formulas.h) */
+  Scalar response_guard;       /* 1/m^4: particles whose response is below its root feel no pressure of their own */
+  Scalar largest_warm_impulse; /* m^2: the largest impulse to start from, times the time step */
+  Scalar free_density;         /* relative density below which a particle may be compressed freely */
+  Scalar smoothing_scale;      /* 1/s: xsph/dt_max density_scale */
+  Scalar core_share;           /* largest share of a wall's core (wall_cores.h); 0: none */
+  Scalar inverse_core_reach;   /* 1/m */
 
   /* walls: how far the planes lie behind the container's faces, per kernel, m */
   Scalar density_wall_shift;
@@ -68,9 +76,13 @@ SQUALL_STRUCT(Substep) {
   Scalar wind_x, wind_y, wind_z;                         /* m/s, relative to the container */
   int box_count;                                         /* boxes [0, box_count) still stand */
   int held_count;                                        /* held groups [0, held_count) are still held */
-  int released_count; /* groups [held_count, held_count + released_count) are freed now */
-  int statistics;     /* 1 in the sub-step whose state the frame report describes */
-  Scalar previous_dt; /* s: for the half kick taken back from particles freed now */
+  int released_count;     /* groups [held_count, held_count + released_count) are freed now */
+  int statistics;         /* 1 in the sub-step whose state the frame report describes */
+  Scalar previous_dt;     /* s: for the half kick taken back from particles freed now */
+  Scalar warm_kick;       /* s: dfsph starts from this times the pressure so far; 0: from no pressure */
+  Scalar inverse_kick;    /* 1/s */
+  Scalar relaxation_rate; /* 1/s: dfsph, relaxation/dt */
+  Scalar correction;      /* dfsph: how much mean over-density goes away in this sub-step at most */
   Scalar reserved_0, reserved_1, reserved_2;
 }
 SQUALL_STRUCT_END(Substep);

@@ -28,7 +28,7 @@ Value pick(const char* option, const std::string& text, std::initializer_list<Va
 }  // namespace
 
 Pressure parse_pressure(const std::string& text) {
-  return pick("--pressure", text, {Pressure::mueller, Pressure::wcsph}, {"dfsph"});
+  return pick("--pressure", text, {Pressure::mueller, Pressure::wcsph, Pressure::dfsph});
 }
 
 Precision parse_precision(const std::string& text) {

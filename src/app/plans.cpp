@@ -88,6 +88,13 @@ void refuse_double(const Options& options, bool with_reference) {
         "--precision double with omp or opencl is not in this version; it has it with --backend reference");
 }
 
+void refuse_dfsph(const std::vector<std::string>& names, const Workload& workload) {
+  for (const auto& name : names)
+    if (workload.pressure == Pressure::dfsph && name != "reference")
+      throw UsageError(fmt::format(
+          "--pressure dfsph with backend {} is not in this version; it has it with --backend reference", name));
+}
+
 std::string default_backend(const Options& options, const std::vector<BackendInfo>& backends) {
   if (!options.backends.empty()) return options.backends.front();
   if (!options.device.empty()) return "opencl";
@@ -194,6 +201,7 @@ class ComparisonPlanner {
 RunPlan plan_run(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
   const std::string name = default_backend(options, backends);
   refuse_double(options, name == "reference");
+  refuse_dfsph({name}, workload);
   const BackendInfo& backend = find_backend(backends, name);
   if (const auto problem = problem_of(backend); !problem.empty())
     throw DeviceError("backend " + name + " cannot run: " + problem);
@@ -216,6 +224,7 @@ RunPlan plan_run(const Options& options, const Workload& workload, const std::ve
 Plans plan_comparison(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
   const auto& asked = options.backends;
   refuse_double(options, std::count(asked.begin(), asked.end(), "reference") > 0);
+  refuse_dfsph(asked.empty() ? std::vector<std::string>{"omp", "opencl"} : asked, workload);
   return ComparisonPlanner(options, workload, backends).plan();
 }
 

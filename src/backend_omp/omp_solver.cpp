@@ -69,6 +69,8 @@ class OmpSolver final : public Solver {
         lists_(static_cast<std::size_t>(threads_)) {
     if (settings.precision != Precision::single_precision)
       throw InputError("precision double is not in this version of the omp backend; use --backend reference");
+    if (settings.pressure == Pressure::dfsph)
+      throw InputError("pressure dfsph is not in this version of the omp backend; use --backend reference");
     for (const auto& box : boxes()) boxes_.push_back(to_single(box));
     resize(0);
   }

@@ -249,6 +249,8 @@ void OpenclSolver::fill_report(FrameReport& report) const {
 std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings) {
   if (settings.precision != Precision::single_precision)
     throw InputError("the opencl backend computes in single precision; drop --precision double, or use --backend omp");
+  if (settings.pressure == Pressure::dfsph)
+    throw InputError("pressure dfsph is not in this version of the opencl backend; use --backend reference");
   return std::make_unique<OpenclSolver>(scene, settings);
 }
 

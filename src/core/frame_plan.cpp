@@ -43,7 +43,9 @@ double largest_held_speed(const Scene& scene, double time) {
 int substep_count(const Scene& scene, Pressure pressure, const Clock& clock, double begin, double length,
                   bool& limited) {
   const double speed = std::max(clock.max_speed, largest_held_speed(scene, begin));
-  const double acceleration = std::max(clock.max_acceleration, largest_gravity(scene, begin, length));
+  double acceleration = largest_gravity(scene, begin, length);
+  // Impacts on water that cannot give way make accelerations that last a sub-step: they say nothing about a frame.
+  if (pressure != Pressure::dfsph) acceleration = std::max(acceleration, clock.max_acceleration);
   const double wanted = std::ceil(length / time_step_limit(scene, pressure, speed + length * acceleration) - 1e-9);
   limited = !(wanted <= k_max_substeps);
   const int needed = limited ? k_max_substeps : std::max(1, static_cast<int>(wanted));
@@ -51,9 +53,9 @@ int substep_count(const Scene& scene, Pressure pressure, const Clock& clock, dou
 }
 
 /// Explicit viscosity is stable for dt < 2/lambda_max; on a lattice at H = 2dx lambda_max is 15.8 nu/H^2 for Müller's
-/// Laplacian and 58.9 nu/H^2 for the central form of wcsph, whose force along the line of centres is five times as
-/// stiff (docs/physics.md). A tenth is left for other arrangements.
-double viscous_factor(Pressure pressure) { return pressure == Pressure::wcsph ? 0.03 : 0.1; }
+/// Laplacian and 58.9 nu/H^2 for the central form of wcsph and dfsph, whose force along the line of centres is five
+/// times as stiff (docs/physics.md). A tenth is left for other arrangements.
+double viscous_factor(Pressure pressure) { return pressure == Pressure::mueller ? 0.1 : 0.03; }
 
 /// Physical viscosity and what artificial viscosity amounts to: alpha (H/2) c/(2(d + 2)), d = 3 [m^2/s].
 double effective_viscosity(const Scene& scene, Pressure pressure) {
@@ -62,12 +64,38 @@ double effective_viscosity(const Scene& scene, Pressure pressure) {
   return physical + scene.solver.artificial_viscosity * 0.5 * scene.support_radius() * scene.speed_of_sound() / 10.0;
 }
 
+/// Largest time step [s] that sound or, where there is none, motion alone allows.
+double courant_limit(const Scene& scene, Pressure pressure, double speed_bound) {
+  const double cfl = scene.solver.cfl;
+  if (pressure == Pressure::dfsph) return cfl * scene.fluid.spacing_m / speed_bound;
+  const double signal = pressure == Pressure::wcsph ? scene.speed_of_sound() : std::sqrt(scene.solver.stiffness_m2_s2);
+  return cfl * scene.support_radius() / (signal + 1.2 * speed_bound);
+}
+
+constexpr double k_relaxation = 0.5;  ///< of dfsph's Jacobi iterations (docs/dfsph.md)
+constexpr double k_warm_start = 0.5;  ///< how much of the last pressure dfsph starts from (docs/dfsph.md)
+constexpr double k_correction = 0.5;  ///< mean over-density that goes away while water falls through its own depth
+
+/// What dfsph needs of a sub-step whose dt and kick are set. Where walls vanish, pressure starts from nothing.
+void set_pressure_solve(const Scene& scene, bool walls_vanish, Substep<double>& substep) {
+  substep.warm_kick = walls_vanish ? 0.0 : k_warm_start * substep.kick;
+  substep.inverse_kick = 1.0 / substep.kick;
+  substep.relaxation_rate = k_relaxation / substep.dt;
+  substep.correction = k_correction * scene.reached_speed() / scene.fluid_depth() * substep.dt;
+}
+
 }  // namespace
+
+double smoothing_viscosity(const Scene& scene, Pressure pressure) {
+  if (pressure != Pressure::dfsph) return 0.0;
+  // eps <r^2>/(6 dt) per application with eps = xsph dt/dt_max; <r^2> = 0.225 H^2 for the cubic spline.
+  const double support = scene.support_radius();
+  return 0.0375 * scene.solver.xsph * support * support / scene.solver.dt_max_s;
+}
 
 double time_step_limit(const Scene& scene, Pressure pressure, double speed_bound) {
   const double support = scene.support_radius();
-  const double signal = pressure == Pressure::wcsph ? scene.speed_of_sound() : std::sqrt(scene.solver.stiffness_m2_s2);
-  double limit = std::min(scene.solver.dt_max_s, scene.solver.cfl * support / (signal + 1.2 * speed_bound));
+  double limit = std::min(scene.solver.dt_max_s, courant_limit(scene, pressure, speed_bound));
   const double viscosity = effective_viscosity(scene, pressure);
   if (viscosity > 0.0) limit = std::min(limit, viscous_factor(pressure) * support * support / viscosity);
   return limit;
@@ -84,6 +112,7 @@ FramePlan plan_frame(const Scene& scene, const Settings& settings, const Clock& 
   const std::vector<double> boxes_end = box_ends(scene), groups_end = held_ends(scene);
   double previous_dt = clock.previous_dt;
   int held_before = lasting(groups_end, begin - previous_dt, length);
+  int boxes_before = lasting(boxes_end, begin - previous_dt, length);
   for (int s = 0; s < count; ++s) {
     const double time = begin + plan.dt * s;
     Substep<double> substep{};
@@ -103,10 +132,12 @@ FramePlan plan_frame(const Scene& scene, const Settings& settings, const Clock& 
     substep.box_count = lasting(boxes_end, time, length);
     substep.held_count = lasting(groups_end, time, length);
     substep.released_count = held_before - substep.held_count;
+    set_pressure_solve(scene, substep.box_count < boxes_before, substep);
     substep.statistics = settings.statistics && s == count - 1 ? 1 : 0;
     plan.substeps.push_back(substep);
     previous_dt = plan.dt;
     held_before = substep.held_count;
+    boxes_before = substep.box_count;
   }
   return plan;
 }

@@ -39,6 +39,9 @@ FramePlan plan_frame(const Scene& scene, const Settings& settings, const Clock& 
 /// Largest time step [s] at a speed bound [m/s]: CFL, viscosity and dt_max.
 double time_step_limit(const Scene& scene, Pressure pressure, double speed_bound);
 
+/// Viscosity [m^2/s] that dfsph's velocity smoothing ([solver] xsph) amounts to, whatever the time step.
+double smoothing_viscosity(const Scene& scene, Pressure pressure);
+
 /// Velocity [m/s] and displacement [m] of the container at a time [s] from the start.
 Eigen::Vector3d container_velocity(const Scene& scene, double time_s);
 Eigen::Vector3d container_displacement(const Scene& scene, double time_s);

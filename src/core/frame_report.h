@@ -13,11 +13,15 @@ struct FrameReport {
   std::uint64_t frame = 0;  ///< index, from 0
   int substeps = 0;
   double dt_s = 0.0;
-  double iterations_mean = 0.0;  ///< pressure iterations per sub-step; 0 for solvers without
-  double frame_ms = 0.0;         ///< from the call of advance until the data asked for can be read, queues finished
-  double upload_ms = 0.0;        ///< plan and appended particles to the device
-  double readback_ms = 0.0;      ///< from compute complete to data readable; 0 if it was readable before
-  double compute_ms = 0.0;       ///< frame - readback - upload
+  std::int64_t density_iterations = 0;     ///< of dfsph, all sub-steps together; 0 for solvers without
+  std::int64_t divergence_iterations = 0;  ///< likewise
+  int unconverged = 0;                     ///< solves of dfsph that max_iterations cut short
+  double iterations_mean = 0.0;            ///< both kinds, per sub-step
+  double smoothing_viscosity = 0.0;        ///< m^2/s: what [solver] xsph amounts to
+  double frame_ms = 0.0;     ///< from the call of advance until the data asked for can be read, queues finished
+  double upload_ms = 0.0;    ///< plan and appended particles to the device
+  double readback_ms = 0.0;  ///< from compute complete to data readable; 0 if it was readable before
+  double compute_ms = 0.0;   ///< frame - readback - upload
   std::map<std::string, double> phase_ms;  ///< with Settings::profile: sort, density, forces, ...; else empty
 
   std::uint64_t readback_bytes = 0;         ///< of the positions delivered: 12 for each, 6 in 16 bits

@@ -47,20 +47,36 @@ void set_support(const Scene& scene, Params<double>& p) {
   p.tiny = 1e-20;
 }
 
-void set_wcsph(const Scene& scene, Params<double>& p) {
+/// The cubic spline for density and force: wcsph and dfsph.
+void set_spline(const Scene& scene, Params<double>& p) {
   constexpr double pi = std::numbers::pi;
   const double support = scene.support_radius();
   const double volume = scene.particle_volume();
   const double sum = lattice_sum(SQUALL_CUBIC, scene.fluid.support_ratio);
-  const double c = scene.speed_of_sound();
   p.density_scale = volume * 8.0 / (pi * std::pow(support, 3)) / sum;
   p.force_scale = volume * 48.0 / (pi * std::pow(support, 4)) / sum;
-  p.stiffness = c * c / 7.0;
-  p.artificial_scale = scene.solver.artificial_viscosity * (0.5 * support) * c * 0.5;
-  p.viscosity_scale = 5.0 * scene.fluid.viscosity_m2_s.value_or(0.0);
   p.density_wall_shift = p.force_wall_shift =
       scene.fluid.spacing_m * wall_shift(SQUALL_CUBIC, scene.fluid.support_ratio);
   p.self_value = 1.0;
+}
+
+void set_wcsph(const Scene& scene, Params<double>& p) {
+  const double c = scene.speed_of_sound();
+  p.stiffness = c * c / 7.0;
+  p.artificial_scale = scene.solver.artificial_viscosity * (0.5 * scene.support_radius()) * c * 0.5;
+  p.viscosity_scale = 5.0 * scene.fluid.viscosity_m2_s.value_or(0.0);
+}
+
+/// Where the numbers come from: docs/dfsph.md.
+void set_dfsph(const Scene& scene, Params<double>& p) {
+  const double dx = scene.fluid.spacing_m;
+  p.viscosity_scale = 10.0 * scene.fluid.viscosity_m2_s.value_or(0.0);
+  p.response_guard = 1e-12 / (p.support_squared * p.support_squared);
+  p.largest_warm_impulse = dx * dx;
+  p.free_density = 0.9;
+  p.smoothing_scale = scene.solver.xsph / scene.solver.dt_max_s * p.density_scale;
+  p.core_share = 0.05;
+  p.inverse_core_reach = 2.0 / dx;
 }
 
 void set_mueller(const Scene& scene, Params<double>& p) {
@@ -92,10 +108,12 @@ Params<double> make_params(const Scene& scene, Pressure pressure) {
   p.clamp_distance = 0.01 * scene.fluid.spacing_m;
   p.lost_distance = 10.0 * size.y();
   set_support(scene, p);
-  if (pressure == Pressure::wcsph)
-    set_wcsph(scene, p);
-  else
+  if (pressure == Pressure::mueller)
     set_mueller(scene, p);
+  else
+    set_spline(scene, p);
+  if (pressure == Pressure::wcsph) set_wcsph(scene, p);
+  if (pressure == Pressure::dfsph) set_dfsph(scene, p);
   if (!scene.rains.empty()) {
     const double speed = terminal_speed(scene.rains.front().drop_diameter_mm);
     p.drag_coefficient = k_standard_gravity / (speed * speed);
@@ -143,6 +161,12 @@ Params<float> to_single(const Params<double>& d) {
   SQUALL_MEMBER(tension);
   SQUALL_MEMBER(artificial_scale);
   SQUALL_MEMBER(viscosity_scale);
+  SQUALL_MEMBER(response_guard);
+  SQUALL_MEMBER(largest_warm_impulse);
+  SQUALL_MEMBER(free_density);
+  SQUALL_MEMBER(smoothing_scale);
+  SQUALL_MEMBER(core_share);
+  SQUALL_MEMBER(inverse_core_reach);
   SQUALL_MEMBER(density_wall_shift);
   SQUALL_MEMBER(force_wall_shift);
   SQUALL_MEMBER(drag_coefficient);
@@ -152,7 +176,7 @@ Params<float> to_single(const Params<double>& d) {
   SQUALL_MEMBER(fifth);
   SQUALL_MEMBER(two_hundred_fifty_sixth);
   SQUALL_MEMBER(one_half);
-  static_assert(sizeof s == 34 * sizeof(float), "a member of Params is missing here");
+  static_assert(sizeof s == 40 * sizeof(float), "a member of Params is missing here");
   // A particle alone sums to what single precision makes of it.
   if (s.self_value != 1.0f) s.self_value = s.support_squared * s.support_squared * s.support_squared;
   return s;
@@ -173,10 +197,14 @@ Substep<float> to_single(const Substep<double>& d) {
   SQUALL_MEMBER(released_count);
   SQUALL_MEMBER(statistics);
   SQUALL_MEMBER(previous_dt);
+  SQUALL_MEMBER(warm_kick);
+  SQUALL_MEMBER(inverse_kick);
+  SQUALL_MEMBER(relaxation_rate);
+  SQUALL_MEMBER(correction);
   SQUALL_MEMBER(reserved_0);
   SQUALL_MEMBER(reserved_1);
   SQUALL_MEMBER(reserved_2);
-  static_assert(sizeof s == 16 * sizeof(float), "a member of Substep is missing here");
+  static_assert(sizeof s == 20 * sizeof(float), "a member of Substep is missing here");
 #undef SQUALL_MEMBER
   return s;
 }

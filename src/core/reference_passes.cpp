@@ -4,9 +4,6 @@
 
 namespace squall::reference {
 
-namespace {
-
-/// Open share at a particle and its gradient, for the density's or the force's kernel.
 template <class Scalar>
 Scalar opening(const Params<Scalar>& p, int kernel_shape, bool for_density, const Walls<Scalar>& walls, const Scalar* x,
                Scalar* gradient) {
@@ -20,6 +17,8 @@ Scalar opening(const Params<Scalar>& p, int kernel_shape, bool for_density, cons
   }
   return open;
 }
+
+namespace {
 
 template <class Scalar>
 void wcsph_forces(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& walls,
@@ -145,37 +144,50 @@ void forces(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& wa
 }
 
 template <class Scalar>
-int integrate(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& walls, const Substep<Scalar>& substep,
-              Particle<Scalar>& particle) {
+void add_external_acceleration(const Params<Scalar>& p, const Terms& terms, const Substep<Scalar>& substep,
+                               Particle<Scalar>& particle) {
   Scalar* a = particle.acceleration;
-  Scalar* x = particle.x;
-  Scalar* v = particle.v;
   a[0] += substep.acceleration_x;
   a[1] += substep.acceleration_y;
   a[2] += substep.acceleration_z;
-  if (terms.drag) {
-    // Midpoint rule: the drag of the speed half a kick from now.
-    const Scalar half_kick = substep.kick * p.one_half;
-    const Scalar wind[3] = {substep.wind_x, substep.wind_y, substep.wind_z};
-    Scalar now[3], then[3];
-    for (int axis = 0; axis < 3; ++axis) now[axis] = v[axis] - wind[axis];
-    const Scalar rate = drag_rate(now[0], now[1], now[2], p.drag_coefficient, particle.isolation);
-    for (int axis = 0; axis < 3; ++axis) then[axis] = fma(half_kick, fma(rate, now[axis], a[axis]), now[axis]);
-    const Scalar rate_then = drag_rate(then[0], then[1], then[2], p.drag_coefficient, particle.isolation);
-    for (int axis = 0; axis < 3; ++axis) a[axis] = fma(rate_then, then[axis], a[axis]);
-  }
+  if (!terms.drag) return;
+  // Midpoint rule: the drag of the speed half a kick from now.
+  const Scalar half_kick = substep.kick * p.one_half;
+  const Scalar wind[3] = {substep.wind_x, substep.wind_y, substep.wind_z};
+  Scalar now[3], then[3];
+  for (int axis = 0; axis < 3; ++axis) now[axis] = particle.v[axis] - wind[axis];
+  const Scalar rate = drag_rate(now[0], now[1], now[2], p.drag_coefficient, particle.isolation);
+  for (int axis = 0; axis < 3; ++axis) then[axis] = fma(half_kick, fma(rate, now[axis], a[axis]), now[axis]);
+  const Scalar rate_then = drag_rate(then[0], then[1], then[2], p.drag_coefficient, particle.isolation);
+  for (int axis = 0; axis < 3; ++axis) a[axis] = fma(rate_then, then[axis], a[axis]);
+}
+
+template <class Scalar>
+int drift(const Params<Scalar>& p, const Walls<Scalar>& walls, const Substep<Scalar>& substep,
+          Particle<Scalar>& particle) {
+  Scalar* x = particle.x;
   const Scalar from[3] = {x[0], x[1], x[2]};
-  for (int axis = 0; axis < 3; ++axis) {
-    v[axis] = fma(substep.kick, a[axis], v[axis]);
-    x[axis] = fma(substep.dt, v[axis], x[axis]);
-  }
-  return keep_inside(&p, walls.boxes, walls.box_count, from, x, v);
+  for (int axis = 0; axis < 3; ++axis) x[axis] = fma(substep.dt, particle.v[axis], x[axis]);
+  return keep_inside(&p, walls.boxes, walls.box_count, from, x, particle.v);
+}
+
+template <class Scalar>
+int integrate(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& walls, const Substep<Scalar>& substep,
+              Particle<Scalar>& particle) {
+  add_external_acceleration(p, terms, substep, particle);
+  for (int axis = 0; axis < 3; ++axis)
+    particle.v[axis] = fma(substep.kick, particle.acceleration[axis], particle.v[axis]);
+  return drift(p, walls, substep, particle);
 }
 
 #define SQUALL_INSTANTIATE(Scalar)                                                                                 \
   template void sort(const Params<Scalar>&, const std::vector<HeldGroup>&, int, SortedParticles<Scalar>&);         \
   template void density(const Params<Scalar>&, const Terms&, const Walls<Scalar>&, SortedParticles<Scalar>&, int); \
   template void forces(const Params<Scalar>&, const Terms&, const Walls<Scalar>&, SortedParticles<Scalar>&, int);  \
+  template Scalar opening(const Params<Scalar>&, int, bool, const Walls<Scalar>&, const Scalar*, Scalar*);         \
+  template void add_external_acceleration(const Params<Scalar>&, const Terms&, const Substep<Scalar>&,             \
+                                          Particle<Scalar>&);                                                      \
+  template int drift(const Params<Scalar>&, const Walls<Scalar>&, const Substep<Scalar>&, Particle<Scalar>&);      \
   template int integrate(const Params<Scalar>&, const Terms&, const Walls<Scalar>&, const Substep<Scalar>&,        \
                          Particle<Scalar>&);
 SQUALL_INSTANTIATE(float)

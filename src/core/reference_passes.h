@@ -29,6 +29,16 @@ struct Particle {
   Scalar isolation = 0;         ///< 1: no neighbour and no wall within H
   Scalar acceleration[3] = {};  ///< m/s^2
   int neighbours = 0;           ///< within H, without self
+
+  // dfsph only (dfsph_formulas.h); `pressure` then outlives the sub-step
+  Scalar opening_gradient[3] = {};  ///< of the open share, 1/m
+  Scalar response = 0;              ///< to its own pressure, 1/m^2
+  Scalar inverse_response = 0;
+  Scalar room = 0;       ///< what a sub-step may compress, relative density
+  Scalar impulse = 0;    ///< m^2/s
+  Scalar change = 0;     ///< of the impulse, by the last iteration
+  Scalar projected = 0;  ///< impulse before extrapolation
+  Scalar start_v[3] = {}, next_v[3] = {};
 };
 
 /// Particles in canonical order, and where each cell's particles start.
@@ -53,6 +63,7 @@ struct Terms {
   Pressure pressure = Pressure::wcsph;
   bool viscosity = false;
   bool drag = false;
+  bool smoothing = false;  ///< dfsph: [solver] xsph
 };
 
 /// Stable: particles of a cell keep the order they had; held ones come after all cells, lost ones last.
@@ -80,6 +91,11 @@ void for_each_candidate(const Params<Scalar>& p, const SortedParticles<Scalar>& 
   }
 }
 
+/// Open share at a particle and its gradient, for the density's or the force's kernel.
+template <class Scalar>
+Scalar opening(const Params<Scalar>& p, int kernel_shape, bool for_density, const Walls<Scalar>& walls, const Scalar* x,
+               Scalar* gradient);
+
 /// Density, pressure and the terms neighbours need, of particle i.
 template <class Scalar>
 void density(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& walls, SortedParticles<Scalar>& sorted,
@@ -89,6 +105,16 @@ void density(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& w
 template <class Scalar>
 void forces(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& walls, SortedParticles<Scalar>& sorted,
             int i);
+
+/// Adds gravity and drag to a particle's acceleration.
+template <class Scalar>
+void add_external_acceleration(const Params<Scalar>& p, const Terms& terms, const Substep<Scalar>& substep,
+                               Particle<Scalar>& particle);
+
+/// Drift and the safety net; returns SQUALL_CLAMPED, SQUALL_LOST or 0.
+template <class Scalar>
+int drift(const Params<Scalar>& p, const Walls<Scalar>& walls, const Substep<Scalar>& substep,
+          Particle<Scalar>& particle);
 
 /// Kick, drift and the safety net; returns SQUALL_CLAMPED, SQUALL_LOST or 0.
 template <class Scalar>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/reference_dfsph.h"
 #include "core/reference_passes.h"
 
 namespace squall::reference {
@@ -27,7 +28,8 @@ class ReferenceSolver final : public Solver {
   ReferenceSolver(const Scene& scene, const Settings& settings)
       : Solver(scene, settings),
         p_(cast<Scalar, Params>(params())),
-        terms_{settings.pressure, scene.fluid.viscosity_m2_s.has_value(), !scene.rains.empty()} {
+        terms_{settings.pressure, scene.fluid.viscosity_m2_s.has_value(), !scene.rains.empty(),
+               scene.solver.xsph > 0.0} {
     for (const auto& box : boxes()) boxes_single_.push_back(cast<Scalar, Box>(box));
   }
 
@@ -47,6 +49,7 @@ class ReferenceSolver final : public Solver {
         particle.x[axis] = cast<Scalar>(particles.positions[i][axis]);
         particle.v[axis] = cast<Scalar>(particles.velocities[i][axis]);
       }
+      particle.pressure = cast<Scalar>(particles.pressures[i]);
       sorted_.particles.push_back(particle);
     }
   }
@@ -70,15 +73,28 @@ class ReferenceSolver final : public Solver {
     sort(p_, held_groups(), substep.held_count, sorted_);
     const Walls<Scalar> walls{boxes_single_.data(), substep.box_count};
     const int active = sorted_.active();
-    for (int i = 0; i < active; ++i) density(p_, terms_, walls, sorted_, i);
-    for (int i = 0; i < active; ++i) forces(p_, terms_, walls, sorted_, i);
+    if (terms_.pressure == Pressure::dfsph) {
+      solve_pressure(walls, substep, report);
+    } else {
+      for (int i = 0; i < active; ++i) density(p_, terms_, walls, sorted_, i);
+      for (int i = 0; i < active; ++i) forces(p_, terms_, walls, sorted_, i);
+    }
     if (substep.statistics != 0) fill_statistics(report);
     for (int i = 0; i < active; ++i) {
       auto& particle = sorted_.particles[static_cast<std::size_t>(i)];
-      const int event = integrate(p_, terms_, walls, substep, particle);
+      const int event = terms_.pressure == Pressure::dfsph ? drift(p_, walls, substep, particle)
+                                                           : integrate(p_, terms_, walls, substep, particle);
       if ((event & SQUALL_CLAMPED) != 0) ++report.clamps;
       if ((event & SQUALL_LOST) == 0) note_maxima(particle);
     }
+  }
+
+  void solve_pressure(const Walls<Scalar>& walls, const Substep<Scalar>& substep, FrameReport& report) {
+    SolveCost cost;
+    make_incompressible(p_, terms_, walls, substep, scene().solver, sorted_, cost);
+    report.density_iterations += cost.density_iterations;
+    report.divergence_iterations += cost.divergence_iterations;
+    report.unconverged += cost.unconverged;
   }
 
   /// Particles freed now start with half a kick, like everything at the start: the other half is taken back.
@@ -126,7 +142,8 @@ class ReferenceSolver final : public Solver {
     particles.reserve(sorted_.particles.size());
     for (const auto& particle : sorted_.particles)
       particles.add(particle.id, {particle.x[0], particle.x[1], particle.x[2]},
-                    {particle.v[0], particle.v[1], particle.v[2]});
+                    {particle.v[0], particle.v[1], particle.v[2]},
+                    terms_.pressure == Pressure::dfsph ? static_cast<double>(particle.pressure) : 0.0);
     return particles;
   }
 

@@ -23,14 +23,15 @@ double Scene::fluid_depth() const {
   return top - container.min_m.y();
 }
 
-double Scene::speed_of_sound() const {
-  if (solver.speed_of_sound_m_s) return *solver.speed_of_sound_m_s;
-  // Ten times the speed the water will reach keeps compression near 1 % (Monaghan 1994): that of a fall through its own
-  // depth; without gravity, that of the fastest start; 1 m/s where nothing moves.
+double Scene::reached_speed() const {
   double reached = std::sqrt(gravity_m_s2.norm() * fluid_depth());
   if (reached == 0.0) reached = fastest_start(*this);
-  if (reached == 0.0) reached = 1.0;
-  return 10.0 * reached;
+  return reached == 0.0 ? 1.0 : reached;
+}
+
+double Scene::speed_of_sound() const {
+  // Ten times the speed the water will reach keeps compression near 1 % (Monaghan 1994).
+  return solver.speed_of_sound_m_s ? *solver.speed_of_sound_m_s : 10.0 * reached_speed();
 }
 
 }  // namespace squall

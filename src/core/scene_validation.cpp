@@ -68,9 +68,6 @@ class Checker {
   void check_version() const {
     if (scene_.fluid.surface_tension_n_m)
       fail({"fluid"}, "surface_tension_n_m", "surface tension is not in this version; remove surface_tension_n_m");
-    if (scene_.solver.xsph > 0.0)
-      fail({"solver"}, "xsph",
-           "xsph = " + number_text(scene_.solver.xsph) + " is not in this version; remove it or write 0");
     if (!scene_.gauges.empty()) fail({"gauge", 1}, "", "[[gauge]] is not in this version; remove it");
   }
 
@@ -84,7 +81,12 @@ class Checker {
   }
 
   void check_solver() const {
-    if (scene_.solver.negative_pressure && scene_.solver.pressure != Pressure::mueller)
+    const auto pressure = scene_.solver.pressure;
+    if (scene_.solver.xsph > 0.0 && pressure && *pressure != Pressure::dfsph)
+      fail({"solver"}, "xsph",
+           "xsph = " + number_text(scene_.solver.xsph) + " needs pressure dfsph, not " + to_string(*pressure) +
+               "; remove it or write 0");
+    if (scene_.solver.negative_pressure && pressure != Pressure::mueller)
       fail({"solver"}, "negative_pressure", "negative_pressure = true needs pressure = \"mueller\" in [solver]");
   }
 

@@ -16,8 +16,8 @@ struct Name {
   const char* text;
 };
 
-constexpr std::array k_pressures{Name<Pressure>{Pressure::mueller, "mueller"},
-                                 Name<Pressure>{Pressure::wcsph, "wcsph"}};
+constexpr std::array k_pressures{Name<Pressure>{Pressure::mueller, "mueller"}, Name<Pressure>{Pressure::wcsph, "wcsph"},
+                                 Name<Pressure>{Pressure::dfsph, "dfsph"}};
 constexpr std::array k_precisions{Name<Precision>{Precision::single_precision, "single"},
                                   Name<Precision>{Precision::double_precision, "double"}};
 constexpr std::array k_simds{Name<Simd>{Simd::best, "best"}, Name<Simd>{Simd::scalar, "scalar"},
@@ -55,7 +55,7 @@ const char* to_string(Precision precision) { return text_of(precision, k_precisi
 const char* to_string(Simd simd) { return text_of(simd, k_simds); }
 const char* to_string(Readback readback) { return text_of(readback, k_readbacks); }
 
-Pressure pressure_from_text(const std::string& text) { return choice_of(text, k_pressures, "pressure", {"dfsph"}); }
+Pressure pressure_from_text(const std::string& text) { return choice_of(text, k_pressures, "pressure", {}); }
 Precision precision_from_text(const std::string& text) { return choice_of(text, k_precisions, "precision", {}); }
 Simd simd_from_text(const std::string& text) { return choice_of(text, k_simds, "simd", {}); }
 Readback readback_from_text(const std::string& text) { return choice_of(text, k_readbacks, "readback", {}); }

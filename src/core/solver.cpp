@@ -17,6 +17,8 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
+constexpr double k_largest_pressure = 1e12;  ///< m^2/s^2; beyond any water, and far from where single precision ends
+
 double milliseconds_since(SteadyClock::time_point start) {
   return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
@@ -26,6 +28,9 @@ void check_shape(const Particles& particles, std::size_t room) {
   if (particles.positions.size() != count || particles.velocities.size() != count)
     throw InputError("particles have " + std::to_string(count) + " ids, " + std::to_string(particles.positions.size()) +
                      " positions and " + std::to_string(particles.velocities.size()) + " velocities; give one of each");
+  if (!particles.pressures.empty() && particles.pressures.size() != count)
+    throw InputError("particles have " + std::to_string(count) + " ids and " +
+                     std::to_string(particles.pressures.size()) + " pressures; give one of each, or no pressures");
   if (count > room)
     throw InputError(std::to_string(count) + " particles do not fit: there is room for " + std::to_string(room) +
                      "; raise max_particles of the scene's rain or enlarge its blocks");
@@ -44,11 +49,16 @@ bool is_to_be_lost(const Params<double>& p, const Eigen::Vector3d& x, const Eige
   return !is_kept(&p, position) || !(v.squaredNorm() <= static_cast<double>(std::numeric_limits<float>::max()));
 }
 
-void mark_lost(const Params<double>& p, Particles& particles) {
+/// Marks what is to be lost; makes pressures what a solver can start from, one for each particle.
+void make_ready(const Params<double>& p, Particles& particles) {
+  particles.pressures.resize(particles.size(), 0.0);
   for (std::size_t i = 0; i < particles.size(); ++i) {
+    double& pressure = particles.pressures[i];
+    if (!(pressure >= 0.0 && pressure <= k_largest_pressure)) pressure = 0.0;
     if (!is_to_be_lost(p, particles.positions[i], particles.velocities[i])) continue;
     particles.positions[i].setConstant(static_cast<double>(SQUALL_LOST_COORDINATE));
     particles.velocities[i].setZero();
+    pressure = 0.0;
   }
 }
 
@@ -64,6 +74,9 @@ Solver::Solver(Scene scene, Settings settings) : scene_(std::move(scene)), setti
   validate(scene_);
   if (settings_.threads < 0 || settings_.threads > 1024)
     throw InputError("threads " + std::to_string(settings_.threads) + " is outside [0, 1024]; 0 uses all");
+  if (scene_.solver.xsph > 0.0 && settings_.pressure != Pressure::dfsph)
+    throw InputError("xsph = " + std::to_string(scene_.solver.xsph) + " in [solver] needs pressure dfsph, not " +
+                     to_string(settings_.pressure) + "; remove it or write 0");
   params_ = make_params(scene_, settings_.pressure);
   boxes_ = make_boxes(scene_, settings_.pressure);
   held_groups_ = make_held_groups(scene_);
@@ -74,7 +87,7 @@ Solver::Solver(Scene scene, Settings settings) : scene_(std::move(scene)), setti
 void Solver::load(Particles particles) {
   check_shape(particles, capacity_);
   check_unique(particles.ids);
-  mark_lost(params_, particles);
+  make_ready(params_, particles);
   do_load(particles);
   count_ = particles.size();
   positions_ = {};
@@ -87,7 +100,7 @@ void Solver::load(Particles particles) {
 
 void Solver::append(Particles particles) {
   check_shape(particles, capacity_ - count_);
-  mark_lost(params_, particles);
+  make_ready(params_, particles);
   const double time = static_cast<double>(clock_.frame) / scene_.time.frame_rate_hz;
   Eigen::Vector3d half_kick = scene_.gravity_m_s2 * (0.5 * clock_.previous_dt);
   half_kick -= container_velocity(scene_, time) - container_velocity(scene_, time - 0.5 * clock_.previous_dt);
@@ -141,6 +154,9 @@ void Solver::finish_report(const FramePlan& plan) {
   report_.compute_ms = report_.frame_ms - report_.upload_ms - report_.readback_ms;
   report_.particles = static_cast<std::int64_t>(count_);
   report_.readback_bytes = positions_.count * positions_.position_bytes();
+  const double iterations = static_cast<double>(report_.density_iterations + report_.divergence_iterations);
+  report_.iterations_mean = iterations / report_.substeps;
+  report_.smoothing_viscosity = smoothing_viscosity(scene_, settings_.pressure);
   report_.time_step_limited = plan.limited && plan.dt > time_step_limit(scene_, settings_.pressure, report_.max_speed);
   report_.container_displacement =
       container_displacement(scene_, static_cast<double>(plan.frame + 1) / scene_.time.frame_rate_hz);
@@ -155,7 +171,7 @@ void Solver::restore(const State& state) {
     throw InputError("the state has " + std::to_string(state.clock.rained.size()) + " rains and the scene " +
                      std::to_string(scene_.rains.size()) + "; restore it into the scene it was saved from");
   Particles particles = state.particles;
-  mark_lost(params_, particles);
+  make_ready(params_, particles);
   do_load(particles);
   count_ = particles.size();
   clock_ = state.clock;

@@ -160,7 +160,7 @@ const BadScene k_value[] = {
      "30:11: start_s = -1 in [[rain]] 1 is out of range"},
     {"schema_other", "schema = 1", "schema = 2", "1:10: schema = 2 is not known; this version reads schema 1"},
     {"pressure_name", "cfl = 0.4", "pressure = 'sph'",
-     "8:12: pressure 'sph' is not known; valid names: mueller, wcsph"},
+     "8:12: pressure 'sph' is not known; valid names: mueller, wcsph, dfsph"},
     {"too_many", "spacing_m = 0.1", "spacing_m = 0.001",
      "6:13: the scene has 500000050 particles, rain included; allowed is up to 268435456; raise spacing_m"},
 };
@@ -229,13 +229,11 @@ const BadScene k_together[] = {
      "31:10: stop_s = 2 in [[rain]] 1 is not after start_s = 2"},
     {"negative_pressure", "cfl = 0.4", "negative_pressure = true",
      "8:21: negative_pressure = true needs pressure = \"mueller\" in [solver]"},
+    {"xsph", "cfl = 0.4", "pressure = 'wcsph'\nxsph = 0.05", "9:8: xsph = 0.05 needs pressure dfsph, not wcsph"},
 };
 
 const BadScene k_not_in_this_version[] = {
-    {"dfsph", "cfl = 0.4", "pressure = 'dfsph'",
-     "8:12: pressure 'dfsph' is not in this version; valid names: mueller, wcsph"},
     {"surface_tension", "0.1", "0.1\nsurface_tension_n_m = 0.07", "7:23: surface tension is not in this version"},
-    {"xsph", "cfl = 0.4", "xsph = 0.05", "8:8: xsph = 0.05 is not in this version; remove it or write 0"},
     {"gauge", "", "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 0.5]\nkind = 'level'\n",
      "31:1: [[gauge]] is not in this version; remove it"},
 };

@@ -84,11 +84,17 @@ inline std::vector<BackendUnderTest> all_backends(Pressure pressure) {
   return all;
 }
 
-/// All of them with every pressure solver; names end in the pressure solver's.
+/// Those that have dfsph in this version.
+inline std::vector<BackendUnderTest> dfsph_backends() {
+  return {reference(Precision::single_precision, Pressure::dfsph),
+          reference(Precision::double_precision, Pressure::dfsph)};
+}
+
+/// All of them with every pressure solver that they have; names end in the pressure solver's.
 inline std::vector<BackendUnderTest> all_backends_and_pressures() {
   std::vector<BackendUnderTest> all;
-  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller})
-    for (BackendUnderTest under_test : all_backends(pressure)) {
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph})
+    for (BackendUnderTest under_test : pressure == Pressure::dfsph ? dfsph_backends() : all_backends(pressure)) {
       under_test.name += std::string("_") + to_string(pressure);
       all.push_back(under_test);
     }

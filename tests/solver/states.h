@@ -43,6 +43,8 @@ inline std::string first_difference(const Particles& a, const Particles& b) {
            << ", v " << a.velocities[i].format(full) << " and " << b.velocities[i].format(full);
       return text.str();
     }
+    if (a.pressures[i] != b.pressures[i])
+      return at + "pressures " + std::to_string(a.pressures[i]) + " and " + std::to_string(b.pressures[i]);
   }
   return "";
 }
