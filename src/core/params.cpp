@@ -75,7 +75,7 @@ void set_dfsph(const Scene& scene, Params<double>& p) {
   p.largest_warm_impulse = dx * dx;
   p.free_density = 0.9;
   p.smoothing_scale = scene.solver.xsph / scene.solver.dt_max_s * p.density_scale;
-  p.core_share = 0.05;
+  p.core_share = 0.1;
   p.inverse_core_reach = 2.0 / dx;
 }
 
