@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -49,9 +50,48 @@ TEST(TimeStepLimit, IsTheSmallestOfItsTerms) {
   EXPECT_EQ(time_step_limit(scene, Pressure::wcsph, 0), 1e-3);
 }
 
+TEST(TimeStepLimit, OfDfsphIsMotionAlone) {
+  Scene scene = empty_tank();  // dx = 0.05 m, 1e-3 m^2/s
+  scene.solver.dt_max_s = 1;
+  const double tolerance = rounding<double>(16);
+  EXPECT_NEAR(time_step_limit(scene, Pressure::dfsph, 5), 0.4 * 0.05 / 5, tolerance);
+  EXPECT_NEAR(time_step_limit(scene, Pressure::dfsph, 0), 0.03 * 0.01 / 1e-3, tolerance);
+  scene.fluid.viscosity_m2_s.reset();
+  EXPECT_EQ(time_step_limit(scene, Pressure::dfsph, 0), 1);
+}
+
+// An impact that stops water within a sub-step is no acceleration that goes on for a frame.
+TEST(FramePlan, DfsphIsPlannedByGravityNotByImpacts) {
+  Settings settings;
+  settings.pressure = Pressure::dfsph;
+  Clock clock = clock_at(7);
+  clock.max_speed = 2;
+  const std::size_t calm = plan_frame(filled_tank(4), settings, clock).substeps.size();
+  clock.max_acceleration = 2000;
+  EXPECT_EQ(plan_frame(filled_tank(4), settings, clock).substeps.size(), calm);
+}
+
+TEST(FramePlan, DfsphStartsFromHalfThePressureUnlessWallsVanish) {
+  Scene scene = filled_tank(4);
+  scene.boxes = {{{0.3, 0.3, 0.1}, {0.35, 0.5, 0.2}, 0.05}};
+  Settings settings;
+  settings.pressure = Pressure::dfsph;
+  int boxes_before = 1, vanished = 0;
+  for (const FramePlan& plan : plan_frames(scene, 6, settings))
+    for (const auto& substep : plan.substeps) {
+      const bool vanishing = substep.box_count < boxes_before;
+      vanished += vanishing;
+      EXPECT_EQ(substep.warm_kick, vanishing ? 0 : 0.5 * substep.kick);
+      EXPECT_NEAR(substep.inverse_kick * substep.kick, 1, rounding<double>(2));
+      EXPECT_NEAR(substep.relaxation_rate * substep.dt, 0.5, rounding<double>(2));
+      boxes_before = substep.box_count;
+    }
+  EXPECT_EQ(vanished, 1);
+}
+
 TEST(FramePlan, SubstepsFillTheFrameAndObeyTheLimit) {
   const Scene scene = filled_tank(4);
-  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller})
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph})
     for (const double speed : {0.0, 0.7, 4.4}) {
       Settings settings;
       settings.pressure = pressure;
@@ -60,12 +100,13 @@ TEST(FramePlan, SubstepsFillTheFrameAndObeyTheLimit) {
       clock.max_acceleration = 25;
       const FramePlan plan = plan_frame(scene, settings, clock);
       const double n = static_cast<double>(plan.substeps.size());
-      const double limit = time_step_limit(scene, pressure, speed + 25.0 / 60);
+      const double acceleration = pressure == Pressure::dfsph ? 9.81 : 25;
+      const double limit = time_step_limit(scene, pressure, speed + acceleration / 60);
       EXPECT_EQ(plan.frame, 7u);
       EXPECT_FALSE(plan.limited);
       EXPECT_NEAR(n * plan.dt, 1.0 / 60, rounding<double>(2, 1.0 / 60));
       EXPECT_LE(plan.dt, limit * (1 + 1e-6));
-      EXPECT_GT(1.0 / 60 / (n - 1), limit) << "one sub-step fewer would have done";
+      EXPECT_GT(1.0 / 60 / std::max(n - 1, 1e-9), limit) << "one sub-step fewer would have done";
       for (const auto& substep : plan.substeps) EXPECT_EQ(substep.dt, plan.dt);
     }
 }
