@@ -3,7 +3,8 @@
 #ifndef SQUALL_BLOCK_SUMS_H
 #define SQUALL_BLOCK_SUMS_H
 
-#include "blocks.h"
+#include "lists.h"
+#include "search.h"
 
 typedef struct {
   Real x, y, z;
@@ -16,10 +17,10 @@ typedef struct {
 #endif
 } Lanes;
 
-static inline void load_block(__global const float* records, const Block* block, Lanes* lanes) {
-  lanes->x = gather(records, block, 0);
-  lanes->y = gather(records, block, 1);
-  lanes->z = gather(records, block, 2);
+static inline void load_block(__global const float* records, const Places* places, const Block* block, Lanes* lanes) {
+  lanes->x = load_own(places->x, block);
+  lanes->y = load_own(places->y, block);
+  lanes->z = load_own(places->z, block);
   lanes->pressure_term = gather(records, block, 3);
   lanes->vx = gather(records, block, 4);
   lanes->vy = gather(records, block, 5);
@@ -108,27 +109,29 @@ static inline Real total(__constant Params* p, const Lanes* a, Real push, Real d
 
 #endif
 
+static inline void sum_pairs(__constant Params* p, __global const float* records, const Places* places,
+                             __global const int* cell_start, const Block* block, const Lanes* a,
+                             __global const int* list, PairSums* sums) {
+  int count = list[0];
+  for (int k = 1; k <= count; ++k) add_pair(p, a, records + 8 * (size_t)list[k], sums);
+  if (count != SQUALL_NO_LIST) return;
+  Search search;
+  begin_search(p, cell_start, block, a->x, a->y, a->z, &search);
+  int found[SQUALL_BATCH + 1];
+  while ((count = search_batch(p, places, &search, found)) > 0)
+    for (int k = 0; k < count; ++k) add_pair(p, a, records + 8 * (size_t)found[k], sums);
+}
+
 static inline void fluid_acceleration(__constant Params* p, __constant Box* boxes, int box_count,
-                                      __global const float* records, __global const int* cell_start, const Block* block,
-                                      const Lanes* a, Vector* result) {
+                                      __global const float* records, const Places* places,
+                                      __global const int* cell_start, const Block* block, const Lanes* a,
+                                      __global const int* list, Vector* result) {
   PairSums sums;
   sums.push.x = sums.push.y = sums.push.z = (Real)(0);
 #if !SQUALL_WCSPH
   sums.drag = sums.push;
 #endif
-  Walk walk;
-  begin_walk(block, &walk);
-  int hits[SQUALL_BATCH + 1];
-  while (has_candidates(p, cell_start, block, &walk)) {
-    int count = 0;
-    int end = min(walk.next + SQUALL_BATCH, walk.end);
-    for (int j = walk.next; j < end; ++j) {
-      hits[count] = j;
-      count += in_reach(p, records, j, a->x, a->y, a->z);
-    }
-    walk.next = end;
-    for (int k = 0; k < count; ++k) add_pair(p, a, records + 8 * (size_t)hits[k], &sums);
-  }
+  sum_pairs(p, records, places, cell_start, block, a, list, &sums);
   Vector slope;
   opening_slope(p, boxes, box_count, a, &slope);
   result->x = SQUALL_TOTAL(x);

@@ -1,63 +1,90 @@
-/* Reads:  positions of the sorted records, cell starts. Writes: density, isolation, number of neighbours (in the
-   sub-step that the frame report describes), and into the record's spare fields what neighbours need of its pressure
-   and volume. One work-item = one share of the rows, in blocks of SQUALL_LANES particles. For CPU devices. */
+/* Reads:  sorted positions, cell starts. Writes: density, isolation, number of neighbours (in the sub-step that the
+   frame report describes), the blocks' lists of neighbours, and into the record's spare fields what neighbours need of
+   its pressure and volume. One work-item = one share of the rows, in blocks of SQUALL_LANES particles. For CPU devices.
+ */
 #include "shared.h"
 
 #if SQUALL_LANES > 1
 
-#include "blocks.h"
+#include "lists.h"
+#include "search.h"
 
 typedef struct {
   Real even, odd;  /* kernel sums by the parity of the sorted index */
   Mask neighbours; /* minus their number, self included */
 } KernelSum;
 
-static inline Real kernel_value(__constant Params* p, __global const float* at, Real x, Real y, Real z, int statistics,
-                                Mask* neighbours) {
-  Real dx = x - (Real)(at[0]), dy = y - (Real)(at[1]), dz = z - (Real)(at[2]);
+/* How far candidate b is within reach of (x, y, z): positive for a neighbour. */
+static inline Real reach_of(__constant Params* p, Real x, Real y, Real z) {
 #if SQUALL_WCSPH
-  Real r = sqrt(squared_length(dx, dy, dz));
-  Real reach = remaining_support(r, (Real)(p->inverse_support));
-  Real value = cubic_value(reach, remaining_support(r, (Real)(p->inverse_half_support)));
+  return remaining_support(sqrt(squared_length(x, y, z)), (Real)(p->inverse_support));
 #else
-  Real reach = squared_support_left(dx, dy, dz, (Real)(p->support_squared));
-  Real value = poly6_value(reach);
+  return squared_support_left(x, y, z, (Real)(p->support_squared));
 #endif
-  if (statistics) *neighbours += reach > (Real)(0);
-  return value;
 }
 
-static inline void sum_kernel(__constant Params* p, __global const float* records, __global const int* cell_start,
-                              const Block* block, Real x, Real y, Real z, int statistics, KernelSum* sum) {
-  sum->even = sum->odd = (Real)(0);
-  sum->neighbours = (Mask)(0);
-  Walk walk;
-  begin_walk(block, &walk);
-  int even[SQUALL_BATCH + 1], odd[SQUALL_BATCH + 1];
-  while (has_candidates(p, cell_start, block, &walk)) {
-    int evens = 0, odds = 0;
-    int end = min(walk.next + SQUALL_BATCH, walk.end);
-    for (int j = walk.next; j < end; ++j) {
-      int hit = in_reach(p, records, j, x, y, z);
-      even[evens] = j;
-      odd[odds] = j;
-      evens += hit & ~j;
-      odds += hit & j;
-    }
-    walk.next = end;
-    for (int k = 0; k < evens; ++k)
-      sum->even += kernel_value(p, records + 8 * (size_t)even[k], x, y, z, statistics, &sum->neighbours);
-    for (int k = 0; k < odds; ++k)
-      sum->odd += kernel_value(p, records + 8 * (size_t)odd[k], x, y, z, statistics, &sum->neighbours);
+static inline Real kernel_value(__constant Params* p, Real r2, Real x, Real y, Real z) {
+#if SQUALL_WCSPH
+  Real r = sqrt(r2);
+  return cubic_value(remaining_support(r, (Real)(p->inverse_support)),
+                     remaining_support(r, (Real)(p->inverse_half_support)));
+#else
+  return poly6_value(squared_support_left(x, y, z, (Real)(p->support_squared)));
+#endif
+}
+
+/* Adds the candidates; keeps in the list, and counts, those that any lane has within reach. */
+static inline int sum_batch(__constant Params* p, const Places* places, Real x, Real y, Real z, int count, int* list,
+                            KernelSum* sum) {
+  int kept = 0;
+  for (int k = 0; k < count; ++k) {
+    int j = list[k];
+    Real dx = x - (Real)(places->x[j]), dy = y - (Real)(places->y[j]), dz = z - (Real)(places->z[j]);
+    Real r2 = squared_length(dx, dy, dz);
+    list[kept] = j;
+    kept += any_lane(r2 < (Real)(p->list_squared));
+    Real value = kernel_value(p, r2, dx, dy, dz);
+    if (j & 1) /* neighbours in the list are mostly neighbours in memory: their parities alternate */
+      sum->odd += value;
+    else
+      sum->even += value;
+  }
+  return kept;
+}
+
+static inline void count_batch(__constant Params* p, const Places* places, Real x, Real y, Real z, int count,
+                               const int* list, KernelSum* sum) {
+  for (int k = 0; k < count; ++k) {
+    int j = list[k];
+    sum->neighbours +=
+        reach_of(p, x - (Real)(places->x[j]), y - (Real)(places->y[j]), z - (Real)(places->z[j])) > (Real)(0);
   }
 }
 
+static inline void sum_kernel(__constant Params* p, const Places* places, __global const int* cell_start,
+                              const Block* block, Real x, Real y, Real z, int statistics, NeighbourLists* lists,
+                              KernelSum* sum) {
+  sum->even = sum->odd = (Real)(0);
+  sum->neighbours = (Mask)(0);
+  Search search;
+  begin_search(p, cell_start, block, x, y, z, &search);
+  int found[SQUALL_BATCH + 1];
+  int batches = 0, kept = 0, count;
+  while ((count = search_batch(p, places, &search, found)) > 0) {
+    kept = sum_batch(p, places, x, y, z, count, found, sum);
+    if (statistics) count_batch(p, places, x, y, z, kept, found, sum);
+    ++batches;
+  }
+  add_list(lists, block, found, batches == 1 ? kept : SQUALL_NO_LIST);
+}
+
 static inline void density_of_block(__global float* records, __global float* densities, __global float* isolations,
-                                    __global int* neighbours, __global const int* cell_start, __constant Params* p,
-                                    __constant Box* boxes, __global const Substep* now, const Block* block) {
-  Real x = gather(records, block, 0), y = gather(records, block, 1), z = gather(records, block, 2);
+                                    __global int* neighbours, const Places* places, __global const int* cell_start,
+                                    __constant Params* p, __constant Box* boxes, __global const Substep* now,
+                                    const Block* block, NeighbourLists* lists) {
+  Real x = load_own(places->x, block), y = load_own(places->y, block), z = load_own(places->z, block);
   KernelSum sum;
-  sum_kernel(p, records, cell_start, block, x, y, z, now->statistics, &sum);
+  sum_kernel(p, places, cell_start, block, x, y, z, now->statistics, lists, &sum);
   Real kernel_sum = sum.even + sum.odd;
   Real share = (Real)(0);
 #if SQUALL_BOXES
@@ -98,16 +125,21 @@ static inline void density_of_block(__global float* records, __global float* den
 }
 
 __kernel void density_blocks(__global float* records, __global float* densities, __global float* isolations,
-                             __global int* neighbours, __global const int* cell_start, __constant Params* p,
-                             __constant Box* boxes, __global const Substep* substeps, int step) {
-  int part = (int)get_global_id(0), parts = (int)get_global_size(0);
-  int end_row = row_split(p, cell_start, part + 1, parts);
-  for (int row = row_split(p, cell_start, part, parts); row < end_row; ++row) {
+                             __global int* neighbours, __global const float* x, __global const float* y,
+                             __global const float* z, __global const int* cell_start, __global int* list_memory,
+                             __constant Params* p, __constant Box* boxes, __global const Substep* substeps, int step) {
+  Places places = {x, y, z};
+  Share share;
+  take_share(p, cell_start, &share);
+  NeighbourLists lists;
+  open_lists(list_memory, &share, &lists);
+  for (int row = share.row; row < share.end_row; ++row) {
     int row_end = cell_start[(row + 1) * p->cells_x];
     for (int begin = cell_start[row * p->cells_x]; begin < row_end; begin += SQUALL_LANES) {
       Block block;
-      make_block(p, records, row, begin, row_end, &block);
-      density_of_block(records, densities, isolations, neighbours, cell_start, p, boxes, substeps + step, &block);
+      make_block(p, x, row, begin, row_end, &block);
+      density_of_block(records, densities, isolations, neighbours, &places, cell_start, p, boxes, substeps + step,
+                       &block, &lists);
     }
   }
 }

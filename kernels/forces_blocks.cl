@@ -1,4 +1,4 @@
-/* Reads and writes what forces.cl does.
+/* Reads and writes what forces.cl does; reads also the lists of neighbours.
    One work-item = one share of the rows, in blocks of SQUALL_LANES particles; the last one also copies held and lost
    particles. For CPU devices. */
 #include "shared.h"
@@ -9,28 +9,32 @@
 #include "integrate_block.h"
 
 __kernel void forces_blocks(__global const float* sorted, __global float* records, __global const float* densities,
-                            __global const float* isolations, __global const int* cell_start, __global int* clamps,
-                            __constant Params* p, __constant Box* boxes, __global const Substep* substeps, int step,
-                            int count) {
+                            __global const float* isolations, __global const float* x, __global const float* y,
+                            __global const float* z, __global const int* cell_start, __global const int* lists,
+                            __global int* clamps, __constant Params* p, __constant Box* boxes,
+                            __global const Substep* substeps, int step, int count) {
   __global const Substep* now = substeps + step;
-  int part = (int)get_global_id(0), parts = (int)get_global_size(0);
-  int end_row = row_split(p, cell_start, part + 1, parts);
-  for (int row = row_split(p, cell_start, part, parts); row < end_row; ++row) {
+  Places places = {x, y, z};
+  Share share;
+  take_share(p, cell_start, &share);
+  __global const int* list = lists + SQUALL_LIST_ENTRIES * (size_t)share.begin;
+  for (int row = share.row; row < share.end_row; ++row) {
     int row_end = cell_start[(row + 1) * p->cells_x];
     for (int begin = cell_start[row * p->cells_x]; begin < row_end; begin += SQUALL_LANES) {
       Block block;
       Lanes lanes;
       Vector a;
-      make_block(p, sorted, row, begin, row_end, &block);
-      load_block(sorted, &block, &lanes);
+      make_block(p, x, row, begin, row_end, &block);
+      load_block(sorted, &places, &block, &lanes);
 #if !SQUALL_WCSPH
       load_pressure(p, densities, &block, &lanes);
 #endif
-      fluid_acceleration(p, boxes, now->box_count, sorted, cell_start, &block, &lanes, &a);
+      fluid_acceleration(p, boxes, now->box_count, sorted, &places, cell_start, &block, &lanes, list, &a);
       integrate_block(p, boxes, now, &block, &lanes, &a, isolations, records, clamps);
+      list += 1 + max(*list, 0);
     }
   }
-  if (part != parts - 1) return;
+  if (get_global_id(0) != get_global_size(0) - 1) return;
   for (int i = cell_start[p->cell_count]; i < count; ++i) {
     float8 record = vload8(i, sorted);
     record.s3 = 0.0f;

@@ -4,7 +4,9 @@
 #include <new>
 
 #include "chunks.h"
+#include "core/errors.h"
 #include "core/frame_plan.h"
+#include "lists.h"
 
 namespace squall::opencl {
 
@@ -26,6 +28,10 @@ struct Request {
 std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
   const std::size_t room = at_least_one(layout.capacity);
   const std::size_t keys = static_cast<std::size_t>(layout.params.cell_count) + 2;
+  const bool blocks = shape.lanes > 1;
+  // A block's load may reach beyond the last particle.
+  const std::size_t places =
+      blocks ? (room + static_cast<std::size_t>(shape.lanes)) * sizeof(cl_float) : sizeof(cl_float);
   return {
       {&Buffers::records, {"particle records", round_up(room * k_record_bytes, k_page)}},
       {&Buffers::sorted, {"sorted particle records", room * k_record_bytes}},
@@ -36,6 +42,10 @@ std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
       {&Buffers::densities, {"densities", room * sizeof(cl_float)}},
       {&Buffers::isolations, {"isolations", layout.drag ? room * sizeof(cl_float) : sizeof(cl_float)}},
       {&Buffers::neighbours, {"neighbour counts", layout.statistics ? room * sizeof(cl_int) : sizeof(cl_int)}},
+      {&Buffers::x, {"x of particles", places}},
+      {&Buffers::y, {"y of particles", places}},
+      {&Buffers::z, {"z of particles", places}},
+      {&Buffers::lists, {"neighbour lists", (blocks ? room * k_list_entries : 1) * sizeof(cl_int)}},
       {&Buffers::maxima, {"maxima", shape.chunks * sizeof(cl_float2)}},
       {&Buffers::clamps, {"clamps", sizeof(cl_int)}},
       {&Buffers::summaries, {"frame summaries", shape.chunks * sizeof(ChunkSummary)}},
@@ -74,19 +84,31 @@ int choose_lanes(const Machine& machine, Simd simd) {
 }  // namespace
 
 WorkShape make_shape(const Machine& machine, const Layout& layout) {
+  const WorkSizes& work = layout.work;
+  check(work);
+  const auto value = [](int asked, std::size_t otherwise) {
+    return asked == 0 ? otherwise : static_cast<std::size_t>(asked);
+  };
   WorkShape shape;
   shape.lanes = choose_lanes(machine, layout.simd);
+  shape.group = value(work.group, shape.group);
+  if (const auto largest = machine.device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(); shape.group > largest)
+    throw InputError("work groups of " + std::to_string(shape.group) + " are too large for " + machine.info.name +
+                     ", which allows " + std::to_string(largest));
+  const std::size_t units = at_least_one(static_cast<std::size_t>(machine.compute_units));
   // A few shares of the rows for each processor, to even out what a share costs.
-  shape.parts = 4 * at_least_one(static_cast<std::size_t>(machine.compute_units));
+  shape.parts = value(work.parts, 4) * units;
   shape.particles = round_up(at_least_one(layout.capacity), shape.group);
-  shape.chunks = shape.ranges = at_least_one(static_cast<std::size_t>(machine.compute_units));
+  shape.chunks = value(work.chunks, 1) * units;
+  shape.ranges = units;
   if (machine.is_cpu) return shape;
   // Many chunks for many processors, as long as their histograms stay small beside the device's memory.
   constexpr std::size_t k_histogram_bytes = std::size_t{256} << 20;
   constexpr std::size_t k_most_chunks = 2048;
   const std::size_t keys = static_cast<std::size_t>(layout.params.cell_count) + 2;
   shape.chunk_group = 32;
-  shape.chunks = std::clamp(round_up(layout.capacity / 64, 32), std::size_t{32}, k_most_chunks);
+  shape.chunks = work.chunks > 0 ? round_up(shape.chunks, 32) : round_up(layout.capacity / 64, 32);
+  shape.chunks = std::clamp(shape.chunks, std::size_t{32}, k_most_chunks);
   shape.chunks = std::clamp(k_histogram_bytes / (keys * sizeof(cl_int)) / 32 * 32, std::size_t{32}, shape.chunks);
   shape.ranges = 512;
   return shape;

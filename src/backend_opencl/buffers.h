@@ -19,6 +19,7 @@ struct Layout {
   bool drag = false;
   bool statistics = false;
   Readback readback = Readback::none;
+  WorkSizes work;
   Simd simd = Simd::best;  ///< lanes: scalar 1, avx2 8, avx512 16; best: by the device
 };
 
@@ -33,6 +34,7 @@ struct WorkShape {
   int lanes = 1;          ///< particles per vector: 1 gives every particle a work-item of its own
   std::size_t parts = 1;  ///< work-items over rows of cells, with more lanes than one
 };
+/// Throws InputError for work sizes that are out of range, or too large for the device.
 WorkShape make_shape(const Machine& machine, const Layout& layout);
 
 /// Memory aligned to pages, for buffers that a device shares with the host.
@@ -53,6 +55,8 @@ struct Buffers {
   cl::Buffer cell_start;             ///< cell_count + 3: cells, held, lost, end
   cl::Buffer densities, isolations;  ///< in sorted order
   cl::Buffer neighbours;             ///< likewise
+  cl::Buffer x, y, z;                ///< likewise, for kernels that work on blocks
+  cl::Buffer lists;                  ///< likewise: neighbours of blocks
   cl::Buffer maxima;                 ///< per chunk: |v|^2 and |a|^2 of the frame so far
   cl::Buffer clamps;                 ///< of the frame
   cl::Buffer summaries;              ///< per chunk, at the end of a frame

@@ -103,6 +103,7 @@ void OpenclSolver::set_up() {
   layout.statistics = settings().statistics;
   layout.readback = settings().readback;
   layout.simd = settings().simd;
+  layout.work = settings().work;
   shape_ = make_shape(machine_, layout);
   auto needs = memory_needs(layout, shape_);
   for (const auto& need : PositionReader::memory_needs(layout)) needs.push_back(need);

@@ -44,10 +44,12 @@ void Passes::make_particle_kernels(const cl::Program& program, const Buffers& bu
 void Passes::make_block_kernels(const cl::Program& program, const Buffers& buffers) {
   density_ = cl::Kernel(program, "density_blocks");
   forces_ = cl::Kernel(program, "forces_blocks");
-  set_arguments(density_, buffers.sorted, buffers.densities, buffers.isolations, buffers.neighbours, buffers.cell_start,
-                buffers.params, buffers.boxes, buffers.substeps, 0);
-  set_arguments(forces_, buffers.sorted, buffers.records, buffers.densities, buffers.isolations, buffers.cell_start,
-                buffers.clamps, buffers.params, buffers.boxes, buffers.substeps, 0, 0);
+  set_arguments(density_, buffers.sorted, buffers.densities, buffers.isolations, buffers.neighbours, buffers.x,
+                buffers.y, buffers.z, buffers.cell_start, buffers.lists, buffers.params, buffers.boxes,
+                buffers.substeps, 0);
+  set_arguments(forces_, buffers.sorted, buffers.records, buffers.densities, buffers.isolations, buffers.x, buffers.y,
+                buffers.z, buffers.cell_start, buffers.lists, buffers.clamps, buffers.params, buffers.boxes,
+                buffers.substeps, 0, 0);
   density_statistics_ = density_;  // it looks at the table itself
 }
 
@@ -60,13 +62,14 @@ void Passes::enqueue_release(Launcher& launcher, int step, int count, int ids_no
 
 void Passes::enqueue_density(Launcher& launcher, int step, bool statistics) {
   cl::Kernel& kernel = statistics ? density_statistics_ : density_;
-  kernel.setArg(shape_.lanes == 1 ? 7 : 8, step);
+  kernel.setArg(shape_.lanes == 1 ? 7 : 12, step);
   launcher.run(kernel, pass_items_, pass_group_, "density");
 }
 
 void Passes::enqueue_forces(Launcher& launcher, int step, int count) {
-  forces_.setArg(9, step);
-  forces_.setArg(10, count);
+  const cl_uint first = shape_.lanes == 1 ? 9 : 13;
+  forces_.setArg(first, step);
+  forces_.setArg(first + 1, count);
   launcher.run(forces_, pass_items_, pass_group_, "forces");
 }
 

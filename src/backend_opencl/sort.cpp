@@ -17,7 +17,7 @@ Sort::Sort(const cl::Program& program, const Buffers& buffers, const WorkShape& 
   set_arguments(totals_, buffers.histograms, buffers.totals, buffers.params, chunks);
   set_arguments(starts_, buffers.histograms, buffers.totals, buffers.cell_start, buffers.params, chunks);
   set_arguments(scatter_, buffers.records, buffers.ids[0], buffers.keys, buffers.histograms, buffers.sorted,
-                buffers.ids[1], buffers.params, 0);
+                buffers.ids[1], buffers.x, buffers.y, buffers.z, buffers.params, 0);
 }
 
 void Sort::enqueue(Launcher& launcher, int step, int count, int ids_from) {
@@ -26,7 +26,7 @@ void Sort::enqueue(Launcher& launcher, int step, int count, int ids_from) {
   histogram_.setArg(10, count);
   scatter_.setArg(1, ids_[ids_from]);
   scatter_.setArg(5, ids_[1 - ids_from]);
-  scatter_.setArg(7, count);
+  scatter_.setArg(10, count);
   launcher.run(histogram_, shape_.chunks, shape_.chunk_group, "sort");
   launcher.run(totals_, shape_.ranges, shape_.chunk_group, "sort");
   launcher.run(starts_, shape_.ranges, shape_.chunk_group, "sort");

@@ -50,6 +50,19 @@ Choice choice_of(const std::string& text, const std::array<Name<Choice>, count>&
 
 }  // namespace
 
+void check(const WorkSizes& work) {
+  const auto require = [](bool legal, const char* name, int value, const char* range) {
+    if (!legal)
+      throw InputError("work size " + std::string(name) + " is " + std::to_string(value) + "; legal are 0 and " +
+                       range);
+  };
+  const bool power_of_two = work.group > 0 && (work.group & (work.group - 1)) == 0;
+  require(work.group == 0 || (power_of_two && work.group >= 16 && work.group <= 1024), "group", work.group,
+          "powers of two from 16 to 1024");
+  require(work.parts >= 0 && work.parts <= 64, "parts", work.parts, "1 to 64");
+  require(work.chunks >= 0 && work.chunks <= 64, "chunks", work.chunks, "1 to 64");
+}
+
 const char* to_string(Pressure pressure) { return text_of(pressure, k_pressures); }
 const char* to_string(Precision precision) { return text_of(precision, k_precisions); }
 const char* to_string(Simd simd) { return text_of(simd, k_simds); }

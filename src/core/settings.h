@@ -28,6 +28,18 @@ enum class Readback {
   quantized,  ///< 16 bits per coordinate, made on the device: 6 bytes per particle
 };
 
+/// How the opencl backend cuts its work into work-items. No value changes a bit of the result, only speed. 0
+/// everywhere: by the device.
+struct WorkSizes {
+  int group = 0;   ///< work-items per group, where a work-item is a particle: a power of two, 16..1024
+  int parts = 0;   ///< shares of the water per compute unit, where particles go in vectors: 1..64
+  int chunks = 0;  ///< chunks per compute unit that the sort works on: 1..64
+  bool operator==(const WorkSizes&) const = default;
+};
+
+/// Throws InputError for a value out of its range.
+void check(const WorkSizes& work);
+
 /// What a run is, beside its scene. The defaults are the best that this version has.
 struct Settings {
   Pressure pressure = Pressure::wcsph;
@@ -37,6 +49,7 @@ struct Settings {
   int threads = 0;         ///< 0: as many as the machine has; CPU devices are split to this many compute units
   std::string device;      ///< OpenCL device: its index in `squall devices`, or part of its name; empty: the first
   std::uint64_t seed = 1;  ///< of the rain
+  WorkSizes work;          ///< of the opencl backend
   bool statistics = true;  ///< fill density_error_* and neighbours_mean of the frame report
   bool profile = false;    ///< fill phase_ms; slows OpenCL down
 };

@@ -142,5 +142,23 @@ TEST_P(SameBits, OnAnyInstructionSetAndInTheReference) {
   LockStep(backends, scene, state_at(backends.front(), scene, window.at_s)).run(100);
 }
 
+// More neighbours than the OpenCL backend's lists and search batches hold (kernels/lists.h, search.h): 1,000 particles
+// within reach of each other, and a thin crowd in which some lists fit and some do not. Bits, not physics.
+TEST(SameBitsInCrowds, HoweverManyNeighboursThereAre) {
+  const Scene scene = one_substep_tank(1400);
+  const double reach = scene.support_radius();
+  const Eigen::Vector3d corner(0.25, 0.25, 0.15);
+  Particles crowd = random_particles(1000, corner, corner + Eigen::Vector3d::Constant(0.5 * reach), 0, 5);
+  const Particles thin = random_particles(400, corner, corner + Eigen::Vector3d::Constant(2.5 * reach), 0, 6);
+  for (std::size_t i = 0; i < thin.size(); ++i)
+    crowd.add(static_cast<std::uint32_t>(1000 + i), thin.positions[i], thin.velocities[i]);
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller}) {
+    const std::vector<BackendUnderTest> backends = bitwise_backends(pressure);
+    const auto first = backends.front().make(scene);
+    first->load(crowd);
+    LockStep(backends, scene, first->state()).run(3);
+  }
+}
+
 }  // namespace
 }  // namespace squall::test
