@@ -17,6 +17,7 @@
 #include "app/progress.h"
 #include "app/result_output.h"
 #include "app/targets.h"
+#include "app/trace_output.h"
 #include "core/errors.h"
 #include "harness/compare.h"
 
@@ -28,6 +29,13 @@ void write_frames(const harness::Comparison& comparison, OutputFolder& folder) {
   for (std::size_t i = 0; i < comparison.rows.size(); ++i)
     for (const auto& frame : comparison.frames[i]) folder.add_frame(comparison.rows[i].plan.label, frame);
   folder.finish();
+}
+
+std::vector<harness::TracedRun> traced_runs(const harness::Comparison& comparison) {
+  std::vector<harness::TracedRun> runs;
+  for (std::size_t i = 0; i < comparison.rows.size(); ++i)
+    runs.push_back({comparison.rows[i].plan.label, &comparison.frames[i]});
+  return runs;
 }
 
 /// A comparison whose length nobody asked for does not take longer than two minutes, set-up and profiling included.
@@ -74,7 +82,7 @@ int command_compare(const Options& options) {
   protect_inputs(options, workload);
   std::optional<OutputFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, workload);
-  check_json_target(options);
+  check_targets(options);
   const auto make = [&](const harness::RunPlan& plan) {
     return make_solver(plan.backend, workload.scene, plan.settings);
   };
@@ -92,6 +100,7 @@ int command_compare(const Options& options) {
     std::cout << headline(workload) << "\n" << comparison_text(comparison, options.budget_ms) << std::flush;
   write_result(options, workload, backends, comparison.rows, comparison.agreement);
   if (folder) write_frames(comparison, *folder);
+  print_notes(write_trace(options, traced_runs(comparison)), options.quiet);
   return interrupt.requested() ? k_exit_interrupted : exit_code_of(options, comparison.rows, comparison.agreement);
 }
 

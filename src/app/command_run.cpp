@@ -1,6 +1,8 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
@@ -12,6 +14,7 @@
 #include "app/result_output.h"
 #include "app/row_text.h"
 #include "app/targets.h"
+#include "app/trace_output.h"
 #include "harness/run.h"
 
 namespace squall::app {
@@ -42,15 +45,17 @@ int command_run(const Options& options) {
   protect_inputs(options, workload);
   std::optional<OutputFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, workload);
-  check_json_target(options);
+  check_targets(options);
   const harness::SolverFactory make = [&](const harness::RunPlan& what) {
     return make_solver(what.backend, workload.scene, what.settings);
   };
   harness::Row row;
+  std::vector<harness::FrameRecord> traced;
   {
     Progress progress(options.quiet, workload.info.name);
     harness::Profile profile;
     row = harness::run_once(make(plan), plan, [&](const harness::Run& run) {
+      if (plan.settings.trace && run.frames().size() > traced.size()) traced.push_back(run.frames().back());
       if (folder) folder->after_frame(run, options.save_every);
       progress.update(run.steps_done(), run.steps_planned());
       if (run.done() && run.error().empty()) profile = harness::profile_run(make, plan, run.state());
@@ -61,6 +66,7 @@ int command_run(const Options& options) {
   if (!options.json_alone()) std::cout << run_result_text(options, workload, row) << std::flush;
   write_result(options, workload, backends, {row}, std::nullopt);
   if (folder) folder->finish();
+  print_notes(write_trace(options, {{plan.label, &traced}}), options.quiet);
   return interrupt.requested() ? k_exit_interrupted : exit_code_of(options, {row}, std::nullopt);
 }
 

@@ -120,7 +120,7 @@ int command_sweep(const Options& options) {
     harness::require_gnuplot();
     folder.emplace(options.out);
   }
-  check_json_target(options);
+  check_targets(options);
   result.sweep = measure(scene_at, result.plan, Progress(options.quiet, workload.info.name), interrupt, folder);
   auto& notes = result.sweep.notes;
   notes.insert(notes.end(), rain.begin(), rain.end());

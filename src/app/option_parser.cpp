@@ -27,8 +27,8 @@ struct Raw {
 };
 
 constexpr const char* k_later_commands[] = {"agree", "study", "stress", "cost", "validate", "view"};
-constexpr const char* k_later_options[] = {"--fast-math",        "--tune",    "--trace",     "--checkpoint",
-                                           "--checkpoint-every", "--restart", "--tolerance", "--max-error"};
+constexpr const char* k_later_options[] = {"--fast-math", "--tune",      "--checkpoint", "--checkpoint-every",
+                                           "--restart",   "--tolerance", "--max-error"};
 
 /// --dt-max becomes SQUALL_DT_MAX.
 std::string variable_of(std::string option) {
@@ -98,6 +98,9 @@ void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
       ->check(positive())
       ->type_name("F");
   add(command, "--out", options.out, "Folder for scene.toml, frames.csv and more")->type_name("DIR");
+  add(command, "--trace", options.trace,
+      "Write what happened when to FILE, for ui.perfetto.dev or chrome://tracing; recording costs time")
+      ->type_name("FILE");
   add(command, "--format", raw.format, "Shape of the JSON: squall or google-benchmark (for its compare.py)")
       ->type_name("NAME");
 }
@@ -211,6 +214,7 @@ void understand(const Raw& raw, Options& options) {
   else if (raw.format != "squall")
     throw UsageError(fmt::format("--format '{}' is unknown; there are squall, google-benchmark", raw.format));
   if (options.format != Format::squall && options.json.empty()) options.json = "-";
+  if (options.trace == "-") throw UsageError("--trace writes to a file, not to stdout; give it a name");
   if (options.save_every > 0 && options.out.empty())
     throw UsageError("--save-every needs a folder to write to; add --out DIR");
 }

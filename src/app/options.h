@@ -33,6 +33,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::string out;
   int save_every = 0;  ///< frames; 0: never
+  std::string trace;   ///< file; empty: none
   std::string json;    ///< file, or "-" for stdout
   Format format = Format::squall;
   bool quiet = false;

@@ -63,6 +63,7 @@ RunPlan base_plan(const Options& options, const Workload& workload, const std::s
   plan.backend = backend;
   plan.settings.pressure = workload.pressure;
   plan.settings.seed = options.seed;
+  plan.settings.trace = !options.trace.empty();
   plan.settings.precision = Precision::single_precision;
   if (backend == "reference") plan.settings.precision = options.precision.value_or(Precision::double_precision);
   if (backend != "reference" && options.simd) plan.settings.simd = *options.simd;

@@ -8,14 +8,16 @@
 
 namespace squall::app {
 
-/// Refuses, before anything is written, --out and --json that would destroy the scene file or a particle file of it
-/// (UsageError). `out_files`: what the command writes into the folder of --out.
+/// Refuses, before anything is written, --out, --json and --trace that would destroy the scene file or a particle file
+/// of it, and --json and --trace to one file (UsageError). `out_files`: what the command writes into the folder of
+/// --out.
 void protect_inputs(const Options& options, const Workload& workload,
                     const std::vector<std::filesystem::path>& out_files);
 /// The same for the commands that write an OutputFolder.
 void protect_inputs(const Options& options, const Workload& workload);
 
-/// Throws InputError if the file of --json cannot be written; leaves what it holds alone. Folder of --out first.
-void check_json_target(const Options& options);
+/// Throws InputError if the file of --json or --trace cannot be written; leaves what it holds alone. Folder of --out
+/// first.
+void check_targets(const Options& options);
 
 }  // namespace squall::app

@@ -1,7 +1,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -10,6 +9,7 @@
 #include "backend_omp/counting_sort.h"
 #include "backend_omp/omp_backend.h"
 #include "backend_omp/passes.h"
+#include "backend_omp/phase_clock.h"
 #include "backend_omp/row_split.h"
 #include "backend_omp/team_array.h"
 #include "grid.h"
@@ -34,24 +34,6 @@ Simd choose_simd(Simd wanted) {
                       to_string(available.back()));
   return wanted;
 }
-
-/// Wall clock per phase, noted by one thread at its barriers; does nothing unless profiling.
-class PhaseClock {
- public:
-  PhaseClock(bool on, std::map<std::string, double>& phases) : on_(on), phases_(phases), last_(Now()) {}
-  void finish(const char* phase) {
-    if (!on_) return;
-    const auto now = Now();
-    phases_[phase] += std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  static std::chrono::steady_clock::time_point Now() { return std::chrono::steady_clock::now(); }
-  bool on_;
-  std::map<std::string, double>& phases_;
-  std::chrono::steady_clock::time_point last_;
-};
 
 constexpr std::size_t k_particles_per_thread = 256;  ///< fewer are done before another thread has woken up
 
@@ -121,7 +103,7 @@ class OmpSolver final : public Solver {
     std::vector<Substep<float>> substeps;
     for (const auto& substep : plan.substeps) substeps.push_back(to_single(substep));
     results_.assign(static_cast<std::size_t>(threads_), {});
-    PhaseClock clock(settings().profile, report.phase_ms);
+    PhaseClock clock(settings(), frame_start(), substeps.size(), report);
     // More threads than the work is worth would only wait for each other. The bits do not depend on how many there are.
     const auto worth = static_cast<int>(std::min<std::size_t>(count_ / k_particles_per_thread, 1024));
 #pragma omp parallel num_threads(std::clamp(worth, 1, threads_))
@@ -167,7 +149,10 @@ class OmpSolver final : public Solver {
         sort_.count(thread, {sort_.cell_start()[p_.cell_count], count}, p_, held_in(substeps[s + 1]),
                     {state_.data(), sorted_ids.data(), keys_.data()});
       barrier_.wait(thread);
-      if (thread == 0) clock.finish("forces");
+      if (thread == 0) {
+        clock.finish("forces");
+        clock.finish_substep();
+      }
     }
     return substeps.size();
   }

@@ -200,8 +200,9 @@ Machine open_machine(const Settings& settings) {
     machine.rounds_correctly =
         (machine.device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
     machine.context = cl::Context(machine.device);
-    machine.queue = cl::CommandQueue(machine.context, machine.device,
-                                     settings.profile ? cl_command_queue_properties{CL_QUEUE_PROFILING_ENABLE} : 0);
+    machine.queue = cl::CommandQueue(
+        machine.context, machine.device,
+        settings.profile || settings.trace ? cl_command_queue_properties{CL_QUEUE_PROFILING_ENABLE} : 0);
     return machine;
   });
 }

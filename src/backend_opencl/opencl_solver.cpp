@@ -35,7 +35,9 @@ static_assert(sizeof(Record) == 32);
 class OpenclSolver final : public Solver {
  public:
   OpenclSolver(const Scene& scene, const Settings& settings)
-      : Solver(scene, settings), machine_(open_machine(settings)), launcher_(machine_.queue, settings.profile) {
+      : Solver(scene, settings),
+        machine_(open_machine(settings)),
+        launcher_(machine_.queue, settings.profile, settings.trace) {
     translate_errors(device_name(), [&] { set_up(); });
   }
 
@@ -172,33 +174,43 @@ Particles OpenclSolver::download() {
 }
 
 void OpenclSolver::advance_frame(const FramePlan& plan, bool deliver, FrameReport& report) {
+  launcher_.trace().clear();  // of the warm-up
   reader_->withdraw();
   upload_table(plan, report);
+  const auto enqueued_from = SteadyClock::now();
   if (deliver) reader_->before_frame(launcher_, settled_count_);
   bool statistics = false;
   for (std::size_t step = 0; step < plan.substeps.size(); ++step) {
     enqueue_substep(static_cast<int>(step), plan.substeps[step], deliver);
     statistics = settings().statistics && plan.substeps[step].statistics != 0;
   }
+  launcher_.trace().end_substeps();
   passes_->enqueue_summary(launcher_, count_, statistics);
   auto& queue = launcher_.queue();
   cl::Event summary_read;
+  launcher_.trace().add(&summary_read, "read summary");
   queue.enqueueReadBuffer(buffers_.summaries, CL_FALSE, 0, summaries_.size() * sizeof(ChunkSummary), summaries_.data(),
                           nullptr, &summary_read);
   const Completion computed(summary_read);
   if (deliver) reader_->after_frame(launcher_, count_);
+  launcher_.trace().host("enqueue", enqueued_from);
+  const auto waited_from = SteadyClock::now();
   queue.finish();
+  launcher_.trace().finished();
   wait_for(summary_read, "computing a frame");
-  report.readback_ms = reader_->finish(computed);
+  report.readback_ms = reader_->finish(launcher_, computed);
+  launcher_.trace().host("wait", waited_from);
   report.readback_copied_bytes = reader_->copied_bytes();
   report.readback_latency_frames = deliver ? reader_->latency_frames() : 0;
   settled_count_ = count_;
   fill_report(report);
-  if (settings().profile) take_device_times(report);
+  launcher_.trace().take(frame_start(), report);  // before its events go
+  take_device_times(report);
 }
 
 void OpenclSolver::take_device_times(FrameReport& report) {
   DeviceTimes times = launcher_.take_times();
+  if (!settings().profile) return;
   report.phase_ms = std::move(times.phases);
   report.readback_copy_ms = times.readback;
   report.readback_hidden_ms = times.readback_hidden;
@@ -211,9 +223,11 @@ void OpenclSolver::upload_table(const FramePlan& plan, FrameReport& report) {
   launcher_.queue().enqueueWriteBuffer(buffers_.substeps, CL_FALSE, 0, table_.size() * sizeof(Substep<float>),
                                        table_.data(), nullptr, launcher_.event("upload"));
   report.upload_ms += milliseconds(begin, SteadyClock::now());
+  launcher_.trace().host("upload", begin);
 }
 
 void OpenclSolver::enqueue_substep(int step, const Substep<double>& substep, bool deliver) {
+  launcher_.trace().begin_substep();
   if (substep.released_count > 0) passes_->enqueue_release(launcher_, step, count_, ids_now_);
   sort_->enqueue(launcher_, step, count_, ids_now_);
   ids_now_ = 1 - ids_now_;

@@ -20,6 +20,10 @@ bool stages(Readback mode) { return mode != Readback::none && mode != Readback::
 
 std::size_t staged_bytes(Readback mode) { return mode == Readback::quantized ? k_codes_bytes : k_float4_bytes; }
 
+const char* kernel_name(Readback mode) {
+  return mode == Readback::quantized ? "quantize_positions" : "stage_positions";
+}
+
 /// Pinned buffers: async fills one while the caller may still read the other.
 std::size_t pinned_count(Readback mode, bool shared) {
   if (mode == Readback::async) return 2;
@@ -57,10 +61,10 @@ PositionReader::PositionReader(Machine& machine, const cl::Program& program, con
                         staging_pages_.get());
   if (mode_ == Readback::quantized) {
     const Eigen::Vector3f inverse = steps_.cwiseInverse();
-    kernel_ = cl::Kernel(program, "quantize_positions");
+    kernel_ = cl::Kernel(program, kernel_name(mode_));
     set_arguments(kernel_, records_, staging_, cl_float4{{inverse.x(), inverse.y(), inverse.z(), 0.0f}}, 0);
   } else {
-    kernel_ = cl::Kernel(program, "stage_positions");
+    kernel_ = cl::Kernel(program, kernel_name(mode_));
     set_arguments(kernel_, records_, staging_, 0);
   }
   if (mode_ == Readback::blocking) pageable_.resize(bytes / sizeof(float));
@@ -128,11 +132,16 @@ void PositionReader::send_staged(Launcher& launcher) {
 }
 
 void PositionReader::read_and_wait(Launcher& launcher, std::size_t count) {
+  const auto waited_from = SteadyClock::now();
   queue_.finish();
+  launcher.trace().finished();
+  launcher.trace().host("wait", waited_from);
   const auto begin = SteadyClock::now();
   run_kernel(launcher, count);
   read(launcher, queue_, pageable_.data(), count, nullptr);
   wait_for(delivered_, "reading positions after a sub-step");
+  launcher.trace().finished();
+  launcher.trace().host("read-back", begin);
   blocked_ms_ += milliseconds(begin, SteadyClock::now());
   show(pageable_.data(), count);
 }
@@ -154,10 +163,11 @@ void PositionReader::after_frame(Launcher& launcher, int count) {
   if (mapped_) show(mapped_, size);
 }
 
-double PositionReader::finish(const Completion& computed) {
+double PositionReader::finish(Launcher& launcher, const Completion& computed) {
   if (view_.count == 0 || mode_ == Readback::blocking) return blocked_ms_;
   wait_for(delivered_, "delivering positions");
   const auto now = SteadyClock::now();
+  launcher.trace().finished(lane());
   const auto begin = computed.time(now);
   if (copied_ && copied_->time(now) <= begin) return 0.0;
   return milliseconds(begin, now);
@@ -165,10 +175,11 @@ double PositionReader::finish(const Completion& computed) {
 
 cl::Event PositionReader::run_kernel(Launcher& launcher, std::size_t count) {
   cl::Event staged;
+  const auto asked = SteadyClock::now();
   kernel_.setArg(mode_ == Readback::quantized ? 3 : 2, static_cast<int>(count));
   queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(shape_.particles), cl::NDRange(shape_.group), nullptr,
                               &staged);
-  launcher.note(staged, k_readback_phase);
+  launcher.note(staged, k_readback_phase, {kernel_name(mode_), CommandTrace::k_queue, asked});
   copied_bytes_ += count * position_bytes_;
   return staged;
 }
@@ -176,15 +187,17 @@ cl::Event PositionReader::run_kernel(Launcher& launcher, std::size_t count) {
 void PositionReader::read(Launcher& launcher, cl::CommandQueue& queue, void* to, std::size_t count,
                           const std::vector<cl::Event>* after) {
   const std::size_t bytes = count * position_bytes_;
+  const auto asked = SteadyClock::now();
   queue.enqueueReadBuffer(staging_, CL_FALSE, 0, bytes, to, after, &delivered_);
-  launcher.note(delivered_, k_readback_phase);
+  launcher.note(delivered_, k_readback_phase, {k_readback_phase, lane(), asked});
   copied_bytes_ += bytes;
 }
 
 void PositionReader::map(Launcher& launcher, const cl::Buffer& buffer, std::size_t bytes) {
+  const auto asked = SteadyClock::now();
   mapped_ = queue_.enqueueMapBuffer(buffer, CL_FALSE, CL_MAP_READ, 0, bytes, nullptr, &delivered_);
   mapped_buffer_ = &buffer;
-  launcher.note(delivered_, k_readback_phase);
+  launcher.note(delivered_, k_readback_phase, {k_readback_phase, lane(), asked});
   copied_bytes_ += shared_ ? 0 : bytes;
 }
 

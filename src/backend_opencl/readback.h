@@ -50,7 +50,7 @@ class PositionReader {
 
   /// Waits until the positions can be read; `computed` is when the frame's last result was there. Returns what reading
   /// back cost after that, or between sub-steps [ms]. Throws cl::Error if a transfer failed.
-  double finish(const Completion& computed);
+  double finish(Launcher& launcher, const Completion& computed);
 
   PositionsView view() const { return view_; }
 
@@ -60,6 +60,8 @@ class PositionReader {
   int latency_frames() const { return mode_ == Readback::async ? 1 : 0; }
 
  private:
+  /// The trace's, of the queue that delivers.
+  const char* lane() const { return mode_ == Readback::async ? CommandTrace::k_transfer_queue : CommandTrace::k_queue; }
   cl::Event run_kernel(Launcher& launcher, std::size_t count);
   void read(Launcher& launcher, cl::CommandQueue& queue, void* to, std::size_t count,
             const std::vector<cl::Event>* after);

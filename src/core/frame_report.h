@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
+
+#include "core/phase_span.h"
 
 namespace squall {
 
@@ -42,6 +45,9 @@ struct FrameReport {
   double density_error_max = 0.0;
   double neighbours_mean = 0.0;                                      ///< within H, without self, last sub-step
   Eigen::Vector3d container_displacement = Eigen::Vector3d::Zero();  ///< m, at the end of the frame
+
+  std::vector<PhaseSpan> spans;  ///< with Settings::trace: what was done when; else empty
+  double clock_error_ms = 0.0;   ///< spans of a device may lie off those of the host by as much as this
 };
 
 }  // namespace squall

@@ -52,6 +52,7 @@ struct Settings {
   WorkSizes work;          ///< of the opencl backend
   bool statistics = true;  ///< fill density_error_* and neighbours_mean of the frame report
   bool profile = false;    ///< fill phase_ms; slows OpenCL down
+  bool trace = false;      ///< fill spans of the frame report; slows OpenCL down as profile does
 };
 
 const char* to_string(Pressure pressure);

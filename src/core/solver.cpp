@@ -121,6 +121,7 @@ void Solver::append_ready(const Particles& particles) {
 
 const FrameReport& Solver::advance(Delivery delivery) {
   const auto start = SteadyClock::now();
+  frame_start_ = start;
   positions_ = {};
   report_ = {};
   Clock next = clock_;
@@ -129,8 +130,10 @@ const FrameReport& Solver::advance(Delivery delivery) {
   clock_ = next;
   append_ready(drops);
   report_.upload_ms = milliseconds_since(start);
+  if (drops.size() > 0) note_host_span("rain", 0.0, report_.upload_ms);
 
   const FramePlan plan = plan_frame(scene_, settings_, clock_);
+  note_host_span("plan", report_.upload_ms, milliseconds_since(start));
   do_advance(plan, delivery, report_);
   if (delivery == Delivery::positions) {
     positions_ = do_positions();
@@ -145,6 +148,10 @@ const FrameReport& Solver::advance(Delivery delivery) {
   clock_.max_speed = report_.max_speed;
   clock_.max_acceleration = report_.max_acceleration;
   return report_;
+}
+
+void Solver::note_host_span(const char* name, double begin_ms, double end_ms) {
+  if (settings_.trace) report_.spans.push_back({name, "host", begin_ms, end_ms});
 }
 
 void Solver::finish_report(const FramePlan& plan) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -80,6 +81,8 @@ class Solver {
   const std::vector<Box<double>>& boxes() const { return boxes_; }
   const std::vector<HeldGroup>& held_groups() const { return held_groups_; }
   std::size_t capacity() const { return capacity_; }  ///< particles there must be room for
+  /// When the frame that is under way was asked for: where the spans of its report count from.
+  std::chrono::steady_clock::time_point frame_start() const { return frame_start_; }
 
  private:
   /// Replaces all particles, keeping their order. At most capacity().
@@ -96,6 +99,7 @@ class Solver {
 
   void append_ready(const Particles& particles);
   void finish_report(const FramePlan& plan);
+  void note_host_span(const char* name, double begin_ms, double end_ms);
 
   Scene scene_;
   Settings settings_;
@@ -106,6 +110,7 @@ class Solver {
   std::size_t count_ = 0;
   Clock clock_;
   FrameReport report_;
+  std::chrono::steady_clock::time_point frame_start_;
   PositionsView positions_;
 };
 

@@ -96,6 +96,7 @@ Json to_json(const Row& row) {
   }
   if (!row.error.empty()) json["error"] = row.error;
   if (row.interrupted) json["interrupted"] = true;
+  if (row.plan.settings.trace) json["traced"] = true;
   json["clamps"] = row.clamps;
   json["lost_particles"] = row.lost_particles;
   json["state_hash"] = hash_text(row.state_hash);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -28,8 +29,9 @@ struct RunPlan {
 struct FrameRecord {
   double time_s = 0.0;  ///< simulated, at the end of the frame
   FrameReport report;
-  double cpu_ms = 0.0;           ///< processor time of the whole process
-  std::uint64_t state_hash = 0;  ///< at the end of the frame
+  double cpu_ms = 0.0;                               ///< processor time of the whole process
+  std::uint64_t state_hash = 0;                      ///< at the end of the frame
+  std::chrono::steady_clock::time_point begin = {};  ///< where the spans of the report count from
 };
 
 /// How far apart two states are.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <utility>
@@ -81,7 +82,8 @@ void Run::give_up_warm_up() {
 
 void Run::advance() {
   const double cpu_before = processor_ms();
-  const FrameReport report = solver_->advance(delivery_of(plan_.settings));
+  const auto begin = std::chrono::steady_clock::now();
+  FrameReport report = solver_->advance(delivery_of(plan_.settings));
   const double cpu_ms = processor_ms() - cpu_before;
   const Delivered delivered(solver_->positions());  // before the state is asked for, which takes the view back
   std::string delivery_problem = check_delivery(delivered, state_, plan_.settings);
@@ -90,11 +92,18 @@ void Run::advance() {
   ++steps_done_;
   if (steps_done_ > plan_.warm_up_frames) {
     const double time_s = static_cast<double>(state_.clock.frame) / scene().time.frame_rate_hz;
-    frames_.push_back({time_s, report, cpu_ms, state_hash_});
+    limit_spans(report);
+    frames_.push_back({time_s, report, cpu_ms, state_hash_, begin});
   }
   check_end_state(report);
   if (error_.empty() && !delivery_problem.empty())
     error_ = fmt::format("wrong positions are delivered with frame {}: {}", report.frame, delivery_problem);
+}
+
+/// Spans stay in memory until the run is over.
+void Run::limit_spans(FrameReport& report) {
+  spans_left_ -= std::min(spans_left_, report.spans.size());
+  if (spans_left_ == 0) report.spans.clear();
 }
 
 void Run::take_state() {
@@ -149,6 +158,7 @@ Profile profile_run(const SolverFactory& make, RunPlan plan, const State& state)
   constexpr int k_frames = 4;
   const int frames = std::min(k_frames, plan.frames);
   plan.settings.profile = true;
+  plan.settings.trace = false;
   Profile mean;
   try {
     const auto solver = make(plan);

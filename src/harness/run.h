@@ -7,6 +7,9 @@
 
 namespace squall::harness {
 
+/// With Settings::trace, a run keeps the spans of its counted frames until there are this many (about 100 MB).
+inline constexpr std::size_t k_max_spans = 1'000'000;
+
 using SolverFactory = std::function<std::unique_ptr<Solver>(const RunPlan& plan)>;
 
 /// One run, advanced frame by frame, so that several can be interleaved. Between frames, untimed, it reads the whole
@@ -43,6 +46,7 @@ class Run {
   /// are played again and leave their records up to the error.
   void give_up_warm_up();
   void take_state();
+  void limit_spans(FrameReport& report);
   void check_end_state(const FrameReport& report);
 
   std::unique_ptr<Solver> solver_;
@@ -52,6 +56,7 @@ class Run {
   std::uint64_t state_hash_ = 0;
   std::vector<FrameRecord> frames_;
   int steps_done_ = 0;
+  std::size_t spans_left_ = k_max_spans;
   std::string error_;
   bool device_failed_ = false;
 };

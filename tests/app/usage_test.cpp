@@ -33,8 +33,9 @@ TEST(Usage, CommandsThatAreNotThere) {
 TEST(Usage, OptionsThatAreNotThere) {
   expect_usage_error({"run", k_tiny, "--bogus"}, "--bogus");
   expect_usage_error({"devices", "--frames", "3"}, "--frames");
-  for (const std::string later : {"--fast-math", "--tune", "--trace=t.json", "--checkpoint=c", "--checkpoint-every=1",
-                                  "--restart=c", "--tolerance=1", "--max-error=1"}) {
+  expect_usage_error({"sweep", k_tiny, "--trace", "trace.json"}, "--trace");
+  for (const std::string later : {"--fast-math", "--tune", "--checkpoint=c", "--checkpoint-every=1", "--restart=c",
+                                  "--tolerance=1", "--max-error=1"}) {
     expect_usage_error({"run", k_tiny, "--backend", "reference", later}, "not in this version");
     expect_usage_error({"compare", k_tiny, later}, "not in this version");
   }
@@ -115,7 +116,7 @@ TEST(Usage, AFlagBeatsAVariableThatContradictsIt) {
 TEST(Usage, VariablesAreCheckedLikeOptions) {
   expect_usage_error({"run", k_tiny, "--backend", "reference"}, "--frames", {{"SQUALL_FRAMES", "0"}});
   expect_usage_error({"run", k_tiny}, "cuda", {{"SQUALL_BACKEND", "cuda"}});
-  expect_usage_error({"run", k_tiny, "--backend", "reference"}, "not in this version", {{"SQUALL_TRACE", "t.json"}});
+  expect_usage_error({"run", k_tiny, "--backend", "reference"}, "not in this version", {{"SQUALL_CHECKPOINT", "c"}});
 }
 
 TEST(Usage, VariablesOfOtherCommandsAreNoConcern) {

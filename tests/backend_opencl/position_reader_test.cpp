@@ -63,7 +63,7 @@ class Bench {
     reader_->after_substep(launcher_, size);
     reader_->after_frame(launcher_, size);
     machine_.queue.finish();
-    EXPECT_GE(reader_->finish(completion), 0.0);
+    EXPECT_GE(reader_->finish(launcher_, completion), 0.0);
     return reader_->view();
   }
 
