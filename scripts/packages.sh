@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034
-# What squall needs of Debian 12, in one place; sourced by run.sh and test.sh.
+# What squall needs of Debian 12, in one place; sourced by run.sh, test.sh and bench.sh.
 
 # To build and run the command; PoCL is the OpenCL device of machines that have no other.
 run_packages=(
@@ -9,7 +9,10 @@ run_packages=(
   nlohmann-json3-dev libcli11-dev libfmt-dev gnuplot-nox
 )
 # To test it: clang-15 checks the kernels' syntax for devices that are not here, Oclgrind watches them run.
-test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev clang-15 oclgrind python3)
+test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev libbenchmark-dev clang-15 oclgrind python3)
+
+# To measure it: Google Benchmark, and python3 for the table.
+bench_packages=("${run_packages[@]}" libbenchmark-dev python3)
 
 say() { printf '== %s\n' "$*" >&2; }
 fail() {

@@ -8,6 +8,6 @@ source scripts/packages.sh
 install_packages "${test_packages[@]}"
 warnings_as_errors=OFF
 [ -z "${CI:-}" ] || warnings_as_errors=ON
-build_release -DSQUALL_BUILD_TESTS=ON -DSQUALL_WARNINGS_AS_ERRORS=$warnings_as_errors
+build_release -DSQUALL_BUILD_TESTS=ON -DSQUALL_BUILD_BENCH=ON -DSQUALL_WARNINGS_AS_ERRORS=$warnings_as_errors
 say "ctest"
 exec ctest --test-dir build/release --output-on-failure --no-tests=error "$@"
