@@ -59,12 +59,11 @@ PositionReader::PositionReader(Machine& machine, const cl::Program& program, con
   if (mode_ == Readback::quantized && shared_) staging_pages_ = allocate_pages(bytes);
   staging_ = cl::Buffer(machine.context, CL_MEM_READ_WRITE | (staging_pages_ ? CL_MEM_USE_HOST_PTR : 0), bytes,
                         staging_pages_.get());
+  kernel_ = cl::Kernel(program, kernel_name(mode_));
   if (mode_ == Readback::quantized) {
     const Eigen::Vector3f inverse = steps_.cwiseInverse();
-    kernel_ = cl::Kernel(program, kernel_name(mode_));
     set_arguments(kernel_, records_, staging_, cl_float4{{inverse.x(), inverse.y(), inverse.z(), 0.0f}}, 0);
   } else {
-    kernel_ = cl::Kernel(program, kernel_name(mode_));
     set_arguments(kernel_, records_, staging_, 0);
   }
   if (mode_ == Readback::blocking) pageable_.resize(bytes / sizeof(float));
