@@ -54,26 +54,48 @@ static inline void opening_slope(__constant Params* p, __constant Box* boxes, in
     force_opening(p, boxes, box_count, a->x, a->y, a->z, &slope->x, &slope->y, &slope->z);
 }
 
+/* What is under way for a stretch of a block's neighbours. Their contributions are made in three short loops instead of
+   one long one: from a pair's load to its sum lies a chain of some 65 cycles, and a processor has registers for about
+   three pairs in such a chain, but for many in each of its parts. */
+#define SQUALL_STRETCH 32
+
+typedef struct {
+  Real x[SQUALL_STRETCH], y[SQUALL_STRETCH], z[SQUALL_STRETCH]; /* of the block's particles, from the neighbour */
+  Real r[SQUALL_STRETCH];
+#if SQUALL_WCSPH
+  Real r2[SQUALL_STRETCH], receding[SQUALL_STRETCH];
+#endif
+  Real numerator[SQUALL_STRETCH], denominator[SQUALL_STRETCH]; /* of what x, y, z go into the sum with */
+} Stretch;
+
 #if SQUALL_WCSPH
 
 typedef struct {
   Vector push;
 } PairSums;
 
-static inline void add_pair(__constant Params* p, const Lanes* a, __global const float* b, PairSums* sums) {
-  Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
-  Real r2 = squared_length(x, y, z);
-  Real r = sqrt(r2);
+static inline void measure_pair(const Lanes* a, __global const float* b, int k, Stretch* s) {
+  s->x[k] = a->x - (Real)(b[0]);
+  s->y[k] = a->y - (Real)(b[1]);
+  s->z[k] = a->z - (Real)(b[2]);
+  s->r2[k] = squared_length(s->x[k], s->y[k], s->z[k]);
+  s->r[k] = sqrt(s->r2[k]);
+  s->receding[k] =
+      dot_product(s->x[k], s->y[k], s->z[k], a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
+}
+
+static inline void weigh_pair(__constant Params* p, const Lanes* a, __global const float* b, int k, Stretch* s,
+                              PairSums* sums) {
+  Real r = s->r[k], r2 = s->r2[k];
   Real slope = cubic_slope(remaining_support(r, (Real)(p->inverse_support)),
                            remaining_support(r, (Real)(p->inverse_half_support)));
-  Real receding = dot_product(x, y, z, a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
-  Real shear = (Real)(p->artificial_scale) * max0(-receding);
+  Real shear = (Real)(p->artificial_scale) * max0(-s->receding[k]);
 #if SQUALL_VISCOSITY
-  shear = nfma((Real)(p->viscosity_scale), receding, shear);
+  shear = nfma((Real)(p->viscosity_scale), s->receding[k], shear);
 #endif
-  Real s = wcsph_pair(r, r2, slope, a->pressure_term + (Real)(b[3]), a->volume_term + (Real)(b[7]), shear,
-                      (Real)(p->softening), (Real)(p->tiny));
-  add_scaled(&sums->push, s, x, y, z);
+  s->numerator[k] = wcsph_numerator(r2, slope, a->pressure_term + (Real)(b[3]), a->volume_term + (Real)(b[7]), shear,
+                                    (Real)(p->softening));
+  s->denominator[k] = wcsph_denominator(r, r2, (Real)(p->softening), (Real)(p->tiny));
 }
 
 static inline Real total(__constant Params* p, const Lanes* a, Real push, Real slope) {
@@ -87,11 +109,18 @@ typedef struct {
   Vector push, drag;
 } PairSums;
 
-static inline void add_pair(__constant Params* p, const Lanes* a, __global const float* b, PairSums* sums) {
-  Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
-  Real r = sqrt(squared_length(x, y, z));
-  Real u = remaining_support(r, (Real)(p->inverse_support));
-  add_scaled(&sums->push, mueller_pair(r, u, a->pressure, (Real)(b[7]), (Real)(b[3]), (Real)(p->tiny)), x, y, z);
+static inline void measure_pair(const Lanes* a, __global const float* b, int k, Stretch* s) {
+  s->x[k] = a->x - (Real)(b[0]);
+  s->y[k] = a->y - (Real)(b[1]);
+  s->z[k] = a->z - (Real)(b[2]);
+  s->r[k] = sqrt(squared_length(s->x[k], s->y[k], s->z[k]));
+}
+
+static inline void weigh_pair(__constant Params* p, const Lanes* a, __global const float* b, int k, Stretch* s,
+                              PairSums* sums) {
+  Real u = remaining_support(s->r[k], (Real)(p->inverse_support));
+  s->numerator[k] = mueller_numerator(u, a->pressure, (Real)(b[7]), (Real)(b[3]));
+  s->denominator[k] = s->r[k] + (Real)(p->tiny);
 #if SQUALL_VISCOSITY
   add_scaled(&sums->drag, viscosity_laplacian(u) * (Real)(b[7]), (Real)(b[4]) - a->vx, (Real)(b[5]) - a->vy,
              (Real)(b[6]) - a->vz);
@@ -109,17 +138,33 @@ static inline Real total(__constant Params* p, const Lanes* a, Real push, Real d
 
 #endif
 
+/* Adds `count` neighbours, in the order of their list. */
+static inline void sum_stretch(__constant Params* p, __global const float* records, const Lanes* a, const int* list,
+                               int count, PairSums* sums) {
+  Stretch s;
+  for (int k = 0; k < count; ++k) measure_pair(a, records + 8 * (size_t)list[k], k, &s);
+  for (int k = 0; k < count; ++k) weigh_pair(p, a, records + 8 * (size_t)list[k], k, &s, sums);
+  for (int k = 0; k < count; ++k) add_scaled(&sums->push, s.numerator[k] / s.denominator[k], s.x[k], s.y[k], s.z[k]);
+}
+
 static inline void sum_pairs(__constant Params* p, __global const float* records, const Places* places,
                              __global const int* cell_start, const Block* block, const Lanes* a,
                              __global const int* list, PairSums* sums) {
-  int count = list[0];
-  for (int k = 1; k <= count; ++k) add_pair(p, a, records + 8 * (size_t)list[k], sums);
-  if (count != SQUALL_NO_LIST) return;
+  int found[SQUALL_BATCH + 1];
+  if (list[0] != SQUALL_NO_LIST) {
+    for (int first = 0; first < list[0]; first += SQUALL_STRETCH) {
+      int count = min(list[0] - first, SQUALL_STRETCH);
+      for (int k = 0; k < count; ++k) found[k] = list[1 + first + k];
+      sum_stretch(p, records, a, found, count, sums);
+    }
+    return;
+  }
   Search search;
   begin_search(p, cell_start, block, a->x, a->y, a->z, &search);
-  int found[SQUALL_BATCH + 1];
-  while ((count = search_batch(p, places, &search, found)) > 0)
-    for (int k = 0; k < count; ++k) add_pair(p, a, records + 8 * (size_t)found[k], sums);
+  int total_found;
+  while ((total_found = search_batch(p, places, &search, found)) > 0)
+    for (int first = 0; first < total_found; first += SQUALL_STRETCH)
+      sum_stretch(p, records, a, found + first, min(total_found - first, SQUALL_STRETCH), sums);
 }
 
 static inline void fluid_acceleration(__constant Params* p, __constant Box* boxes, int box_count,

@@ -14,7 +14,7 @@ typedef struct {
   Mask neighbours; /* minus their number, self included */
 } KernelSum;
 
-/* How far candidate b is within reach of (x, y, z): positive for a neighbour. */
+/* Positive for a neighbour that is (x, y, z) away. */
 static inline Real reach_of(__constant Params* p, Real x, Real y, Real z) {
 #if SQUALL_WCSPH
   return remaining_support(sqrt(squared_length(x, y, z)), (Real)(p->inverse_support));
@@ -33,6 +33,8 @@ static inline Real kernel_value(__constant Params* p, Real r2, Real x, Real y, R
 #endif
 }
 
+__constant Mask k_only_even[2] = {(Mask)(-1), (Mask)(0)};
+
 /* Adds the candidates; keeps in the list, and counts, those that any lane has within reach. */
 static inline int sum_batch(__constant Params* p, const Places* places, Real x, Real y, Real z, int count, int* list,
                             KernelSum* sum) {
@@ -44,10 +46,8 @@ static inline int sum_batch(__constant Params* p, const Places* places, Real x, 
     list[kept] = j;
     kept += any_lane(r2 < (Real)(p->list_squared));
     Real value = kernel_value(p, r2, dx, dy, dz);
-    if (j & 1) /* neighbours in the list are mostly neighbours in memory: their parities alternate */
-      sum->odd += value;
-    else
-      sum->even += value;
+    sum->even += as_real(as_mask(value) & k_only_even[j & 1]); /* the value or exactly zero */
+    sum->odd += as_real(as_mask(value) & k_only_even[1 - (j & 1)]);
   }
   return kept;
 }

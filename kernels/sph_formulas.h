@@ -81,18 +81,24 @@ SQUALL_FORMULA Real mueller_pressure(Real density, Real stiffness, Real tension)
    p_i/rho_i^2 + p_j/rho_j^2, plus viscosity that acts along the line of centres (so angular momentum is kept):
    `shear` = viscosity_scale * (-v.x) for physical viscosity, plus artificial_scale * max0(-v.x) (Monaghan 1992).
    pressures = P_i + P_j, volumes = 1/rho_i + 1/rho_j, softening = 0.01 (H/2)^2. One division; 0 at r = 0. */
+SQUALL_FORMULA Real wcsph_numerator(Real r2, Real slope, Real pressures, Real volumes, Real shear, Real softening) {
+  return fma(pressures, r2 + softening, shear * volumes) * slope;
+}
+SQUALL_FORMULA Real wcsph_denominator(Real r, Real r2, Real softening, Real tiny) {
+  return (r + tiny) * (r2 + softening);
+}
 SQUALL_FORMULA Real wcsph_pair(Real r, Real r2, Real slope, Real pressures, Real volumes, Real shear, Real softening,
                                Real tiny) {
-  Real distance2 = r2 + softening;
-  Real numerator = fma(pressures, distance2, shear * volumes);
-  return numerator * slope / ((r + tiny) * distance2);
+  return wcsph_numerator(r2, slope, pressures, volumes, shear, softening) / wcsph_denominator(r, r2, softening, tiny);
 }
 
 /* mueller pressure: the factor s of f_i += s (x_i - x_j); (p_i + p_j)/(2 rho_j) as p_i V_j + P_j with V = 1/(2 rho),
    P = p V. Half the pressure gradient: Muller's model as printed. */
+SQUALL_FORMULA Real mueller_numerator(Real u, Real pressure_i, Real volume_j, Real pressure_volume_j) {
+  return fma(pressure_i, volume_j, pressure_volume_j) * spiky_slope(u);
+}
 SQUALL_FORMULA Real mueller_pair(Real r, Real u, Real pressure_i, Real volume_j, Real pressure_volume_j, Real tiny) {
-  Real pressures = fma(pressure_i, volume_j, pressure_volume_j);
-  return pressures * spiky_slope(u) / (r + tiny);
+  return mueller_numerator(u, pressure_i, volume_j, pressure_volume_j) / (r + tiny);
 }
 
 /* ---- walls: the share of a particle's support behind a plane at distance q H (docs/physics.md)
