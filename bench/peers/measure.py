@@ -31,13 +31,13 @@ class Samples:
 
 
 SIZES = {
-    "small": (18, Samples(rounds=3, warm_up_frames=5, frames=120, warm_up_steps=10, steps=120)),
-    "medium": (37, Samples(rounds=2, warm_up_frames=2, frames=60, warm_up_steps=3, steps=60)),
-    "large": (79, Samples(rounds=2, warm_up_frames=1, frames=2, warm_up_steps=1, steps=6)),
+    "small": (18, Samples(rounds=5, warm_up_frames=5, frames=120, warm_up_steps=10, steps=120)),
+    "medium": (37, Samples(rounds=3, warm_up_frames=2, frames=60, warm_up_steps=3, steps=60)),
+    "large": (79, Samples(rounds=3, warm_up_frames=1, frames=2, warm_up_steps=1, steps=6)),
 }
 STAGES = [*SIZES, "busy", "solution"]
-BUSY = Samples(rounds=2, warm_up_frames=5, frames=60, warm_up_steps=10, steps=40)
-SOLUTION = Samples(rounds=2, warm_up_frames=0, frames=600, warm_up_steps=0, steps=100000, until_s=1.0)  # 600 frames are 1 s
+BUSY = Samples(rounds=5, warm_up_frames=5, frames=60, warm_up_steps=10, steps=40)
+SOLUTION = Samples(rounds=3, warm_up_frames=0, frames=600, warm_up_steps=0, steps=100000, until_s=1.0)  # 600 frames are 1 s
 
 
 class Busy:
@@ -177,7 +177,7 @@ def parse():
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--stages", default=",".join(STAGES), help="of " + ", ".join(STAGES))
     parser.add_argument("--note", action="append", default=[], metavar="KEY=TEXT", help="kept in the result: versions, flags")
-    parser.add_argument("--rounds", type=int, help="instead of each stage's own number: 3 for small, else 2")
+    parser.add_argument("--rounds", type=int, help="instead of each stage's own number: 5 for small and busy, else 3")
     options = parser.parse_args()
     options.stages = options.stages.split(",")
     unknown = [stage for stage in options.stages if stage not in STAGES]
