@@ -18,6 +18,7 @@
 #include "app/result_output.h"
 #include "app/targets.h"
 #include "app/trace_output.h"
+#include "app/tuned_plans.h"
 #include "core/errors.h"
 #include "harness/compare.h"
 
@@ -72,7 +73,7 @@ std::vector<std::string> notes_on_length(const Options& options, const Plans& pl
 int command_compare(const Options& options) {
   const Workload workload = load_workload(options);
   const auto backends = list_backends();
-  const Plans plans = plan_comparison(options, workload, backends);
+  Plans plans = plan_comparison(options, workload, backends);
   auto notes = scene_notes(workload.scene);
   notes.insert(notes.end(), plans.left_out.begin(), plans.left_out.end());
   print_notes(notes, options.quiet);
@@ -86,6 +87,8 @@ int command_compare(const Options& options) {
   const auto make = [&](const harness::RunPlan& plan) {
     return make_solver(plan.backend, workload.scene, plan.settings);
   };
+  const auto go_on = [&] { return !interrupt.requested(); };
+  print_notes(apply_tuning(options, workload, backends, make, plans.plans, go_on), options.quiet);
   harness::Comparison comparison;
   {
     Progress progress(options.quiet, workload.info.name);

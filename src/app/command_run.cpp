@@ -15,6 +15,7 @@
 #include "app/row_text.h"
 #include "app/targets.h"
 #include "app/trace_output.h"
+#include "app/tuned_plans.h"
 #include "harness/run.h"
 
 namespace squall::app {
@@ -38,7 +39,7 @@ int command_run(const Options& options) {
     return k_exit_fine;
   }
   const auto backends = list_backends();
-  const harness::RunPlan plan = plan_run(options, workload, backends);
+  std::vector<harness::RunPlan> plans{plan_run(options, workload, backends)};
   print_notes(scene_notes(workload.scene), options.quiet);
 
   const Interrupt interrupt;
@@ -49,6 +50,9 @@ int command_run(const Options& options) {
   const harness::SolverFactory make = [&](const harness::RunPlan& what) {
     return make_solver(what.backend, workload.scene, what.settings);
   };
+  const auto go_on = [&] { return !interrupt.requested(); };
+  print_notes(apply_tuning(options, workload, backends, make, plans, go_on), options.quiet);
+  const harness::RunPlan& plan = plans.front();
   harness::Row row;
   std::vector<harness::FrameRecord> traced;
   {

@@ -35,11 +35,17 @@ std::vector<std::string> drop_contradicted_variables(const IsFlag& is_flag, Opti
   const auto note = [&](const char* variable, const std::string& other) {
     notes.push_back(fmt::format("{} is left out: it contradicts {}", variable, other));
   };
+  const auto forget_idle_table = [&] {  // the variable says where a file lies, whatever runs
+    if (!is_flag("--tuning") && !takes_part(options, "opencl")) options.tuning.clear();
+  };
   if (!options.backends.empty() && !is_flag("--backend")) {
     const bool other_device = is_flag("--device") && !takes_part(options, "opencl");
     const bool other_kind =
         (is_flag("--simd") || (is_flag("--threads") && several_threads(options))) && only_reference(options);
-    if (!other_device && !other_kind) return notes;
+    if (!other_device && !other_kind) {
+      forget_idle_table();
+      return notes;
+    }
     note("SQUALL_BACKEND", other_device ? "--device" : is_flag("--simd") ? "--simd" : "--threads");
     options.backends.clear();
   }
@@ -49,9 +55,11 @@ std::vector<std::string> drop_contradicted_variables(const IsFlag& is_flag, Opti
     note(variable, backend);
     value = {};
   };
+  forget_idle_table();
   const bool no_opencl = !takes_part(options, "opencl");
   drop("--device", "SQUALL_DEVICE", no_opencl && !options.device.empty(), options.device);
   drop("--readback", "SQUALL_READBACK", no_opencl && !options.readbacks.empty(), options.readbacks);
+  drop("--tune", "SQUALL_TUNE", no_opencl && options.tune, options.tune);
   drop("--threads", "SQUALL_THREADS", only_reference(options) && several_threads(options), options.threads);
   drop("--simd", "SQUALL_SIMD", only_reference(options) && options.simd.has_value(), options.simd);
   drop("--precision", "SQUALL_PRECISION",
@@ -68,6 +76,13 @@ void check_contradictions(const Options& options) {
     if (!options.readbacks.empty())
       throw UsageError(fmt::format(
           "--readback belongs to the backend opencl; {} delivers in place: leave it out or add --backend opencl",
+          backends));
+    if (options.tune)
+      throw UsageError(
+          fmt::format("--tune measures OpenCL devices; {} has none: leave it out or add --backend opencl", backends));
+    if (!options.tuning.empty())
+      throw UsageError(fmt::format(
+          "--tuning names the work sizes of OpenCL devices; {} has none: leave it out or add --backend opencl",
           backends));
   }
   if (!only_reference(options)) return;

@@ -27,8 +27,8 @@ struct Raw {
 };
 
 constexpr const char* k_later_commands[] = {"agree", "study", "stress", "cost", "validate", "view"};
-constexpr const char* k_later_options[] = {"--fast-math", "--tune",      "--checkpoint", "--checkpoint-every",
-                                           "--restart",   "--tolerance", "--max-error"};
+constexpr const char* k_later_options[] = {"--fast-math", "--checkpoint", "--checkpoint-every",
+                                           "--restart",   "--tolerance",  "--max-error"};
 
 /// --dt-max becomes SQUALL_DT_MAX.
 std::string variable_of(std::string option) {
@@ -97,6 +97,10 @@ void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
   add(command, "--budget-ms", options.budget_ms, "Exit 7 if the 95th percentile of frame time exceeds this")
       ->check(positive())
       ->type_name("F");
+  command.add_flag("--tune", options.tune, "Measure which work sizes suit the OpenCL device, use and remember them")
+      ->envname("SQUALL_TUNE");
+  add(command, "--tuning", options.tuning, "File with remembered work sizes, or none (the one in the cache folder)")
+      ->type_name("FILE");
   add(command, "--out", options.out, "Folder for scene.toml, frames.csv and more")->type_name("DIR");
   add(command, "--trace", options.trace,
       "Write what happened when to FILE, for ui.perfetto.dev or chrome://tracing; recording costs time")

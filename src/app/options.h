@@ -31,6 +31,8 @@ struct Options {
   std::optional<double> dt_max_s;
   std::optional<double> budget_ms;
   std::uint64_t seed = 1;
+  bool tune = false;
+  std::string tuning;  ///< file with tuned work sizes, or "none"; empty: the one in the cache folder
   std::string out;
   int save_every = 0;  ///< frames; 0: never
   std::string trace;   ///< file; empty: none

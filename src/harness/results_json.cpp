@@ -90,6 +90,8 @@ Json to_json(const DeviceInfo& device) {
 
 Json to_json(const Row& row) {
   Json json = identity(row);
+  if (const WorkSizes& work = row.plan.settings.work; row.plan.backend == "opencl")
+    json["work_sizes"] = {{"group", work.group}, {"parts", work.parts}, {"chunks", work.chunks}};
   if (has_numbers(row)) {
     add_times(row, json);
     add_water(row, json);

@@ -56,6 +56,7 @@ class Program {
     std::fflush(nullptr);  // what is buffered here would be written by the child, too
     child_ = fork();
     if (child_ != 0) return;
+    setenv("SQUALL_TUNING", "none", 1);  // what its user has tuned is no part of a test
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     const std::string place = stdout_to.empty() || stdout_to == k_closed ? out() : stdout_to;
     if (std::freopen(place.c_str(), "w", stdout) == nullptr || std::freopen(err().c_str(), "w", stderr) == nullptr)

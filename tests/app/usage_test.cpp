@@ -34,8 +34,9 @@ TEST(Usage, OptionsThatAreNotThere) {
   expect_usage_error({"run", k_tiny, "--bogus"}, "--bogus");
   expect_usage_error({"devices", "--frames", "3"}, "--frames");
   expect_usage_error({"sweep", k_tiny, "--trace", "trace.json"}, "--trace");
-  for (const std::string later : {"--fast-math", "--tune", "--checkpoint=c", "--checkpoint-every=1", "--restart=c",
-                                  "--tolerance=1", "--max-error=1"}) {
+  expect_usage_error({"sweep", k_tiny, "--tune"}, "--tune");
+  for (const std::string later :
+       {"--fast-math", "--checkpoint=c", "--checkpoint-every=1", "--restart=c", "--tolerance=1", "--max-error=1"}) {
     expect_usage_error({"run", k_tiny, "--backend", "reference", later}, "not in this version");
     expect_usage_error({"compare", k_tiny, later}, "not in this version");
   }

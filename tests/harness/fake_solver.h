@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -38,6 +40,7 @@ struct Faults {
   int hurries_from = std::numeric_limits<int>::max();       ///< reports 1e6 m/s, too fast for any number of sub-steps
   int delivers_wrong_at = std::numeric_limits<int>::max();  ///< position 7 is 0.01 m further in x than in the state
   bool states_not_finite = false;
+  int frame_lasts_ms = 0;
 };
 
 /// Particles that drift with 1 m/s in z and feel nothing.
@@ -55,6 +58,7 @@ class FakeSolver final : public Solver {
   }
   void do_advance(const FramePlan& plan, Delivery delivery, FrameReport& report) override {
     const auto frame = static_cast<int>(plan.frame);
+    std::this_thread::sleep_for(std::chrono::milliseconds(faults_.frame_lasts_ms));
     if (frame >= faults_.device_fails_at) throw DeviceError("the fake device is gone");
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       particles_.positions[i].z() += 1e-3;
