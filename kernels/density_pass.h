@@ -11,7 +11,7 @@ typedef struct {
   int neighbours;  /* self included */
 } KernelSum;
 
-static inline void add_candidate(__constant Params* p, float3 from, float3 to, int j, KernelSum* sum) {
+static inline void add_candidate(__constant Params* p, float4 from, float4 to, int j, KernelSum* sum) {
   float x = from.x - to.x, y = from.y - to.y, z = from.z - to.z;
 #if SQUALL_WCSPH
   float r2 = squared_length(x, y, z);
@@ -30,17 +30,18 @@ static inline void add_candidate(__constant Params* p, float3 from, float3 to, i
   sum->neighbours += reach > 0.0f;
 }
 
-/* Returns the number of neighbours within H. Only x, y, z of a record are read: the spare fields are being written. */
-static inline int density_pass(__global float* records, __global float* densities, __global float* isolations,
-                               __global const int* cell_start, __constant Params* p, __constant Box* boxes,
-                               int box_count, int i) {
-  float3 at = vload3(0, records + 8 * (size_t)i);
+/* Returns the number of neighbours within H. Of `places`, w means nothing; of the records, only the spare fields are
+   written, and nothing is read. */
+static inline int density_pass(__global const float4* places, __global float* records, __global float* densities,
+                               __global float* isolations, __global const int* cell_start, __constant Params* p,
+                               __constant Box* boxes, int box_count, int i) {
+  float4 at = places[i];
   Neighbourhood cells = neighbourhood(p, at.x, at.y, at.z);
   KernelSum sum = {0.0f, 0.0f, 0};
   for (int z = cells.first_z; z <= cells.last_z; ++z) {
     for (int y = cells.first_y; y <= cells.last_y; ++y) {
       int2 range = candidates(p, cell_start, cells, y, z);
-      for (int j = range.x; j < range.y; ++j) add_candidate(p, at, vload3(0, records + 8 * (size_t)j), j, &sum);
+      for (int j = range.x; j < range.y; ++j) add_candidate(p, at, places[j], j, &sum);
     }
   }
   float kernel_sum = sum.even + sum.odd;

@@ -6,12 +6,14 @@
 
 #include "density_pass.h"
 
-__kernel void density_statistics(__global float* records, __global float* densities, __global float* isolations,
-                                 __global const int* cell_start, __constant Params* p, __constant Box* boxes,
-                                 __global const Substep* substeps, int step, __global int* neighbours) {
+__kernel void density_statistics(__global const float4* places, __global float* records, __global float* densities,
+                                 __global float* isolations, __global const int* cell_start, __constant Params* p,
+                                 __constant Box* boxes, __global const Substep* substeps, int step,
+                                 __global int* neighbours) {
   int i = (int)get_global_id(0);
   if (i >= cell_start[p->cell_count]) return;
-  neighbours[i] = density_pass(records, densities, isolations, cell_start, p, boxes, substeps[step].box_count, i);
+  neighbours[i] =
+      density_pass(places, records, densities, isolations, cell_start, p, boxes, substeps[step].box_count, i);
 }
 
 #endif

@@ -2,15 +2,9 @@
    The records' spare fields hold |v|^2 and |a|^2 of the sub-step before (forces.cl): met here, they cost nothing.
    One work-item = one chunk of particles. */
 #include "chunks.h"
-#include "grid.h"
+#include "sort_key.h"
 
-static inline int sort_key(__constant Params* p, __constant HeldGroup* groups, int held_count, float4 position,
-                           uint id) {
-  if (is_lost(position.x)) return lost_cell(p);
-  for (int g = 0; g < held_count; ++g)
-    if (id >= groups[g].first_id && id < groups[g].end_id) return held_cell(p);
-  return cell_of(p, position.x, position.y, position.z);
-}
+#if SQUALL_LANES > 1
 
 __kernel void sort_histogram(__global const float4* records, __global const uint* ids, __global int* keys,
                              __global int* histograms, __global float2* maxima, __global int* clamps,
@@ -36,3 +30,5 @@ __kernel void sort_histogram(__global const float4* records, __global const uint
   maxima[chunk] = step > 0 ? fmax(maxima[chunk], largest) : (float2)(0.0f, 0.0f);
   if (step == 0 && chunk == 0) *clamps = 0;
 }
+
+#endif

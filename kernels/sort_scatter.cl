@@ -1,8 +1,10 @@
-/* Reads:  records and ids in their old order, each chunk's places. Writes: records and ids in canonical order, and for
-   kernels that work on blocks the positions once more, an array per axis.
+/* Reads:  records and ids in their old order, each chunk's places. Writes: records and ids in canonical order, and the
+   positions once more, an array per axis.
    One work-item = one chunk of particles. */
 #include "chunks.h"
 #include "grid.h"
+
+#if SQUALL_LANES > 1
 
 __kernel void sort_scatter(__global const float4* records, __global const uint* ids, __global const int* keys,
                            __global int* places, __global float4* sorted, __global uint* sorted_ids, __global float* x,
@@ -17,10 +19,10 @@ __kernel void sort_scatter(__global const float4* records, __global const uint* 
     sorted[2 * to] = position;
     sorted[2 * to + 1] = records[2 * (size_t)i + 1];
     sorted_ids[to] = ids[i];
-#if SQUALL_LANES > 1
     x[to] = position.x;
     y[to] = position.y;
     z[to] = position.z;
-#endif
   }
 }
+
+#endif

@@ -4,6 +4,8 @@
 #include "chunks.h"
 #include "grid.h"
 
+#if SQUALL_LANES > 1
+
 __kernel void sort_starts(__global int* histograms, __global const int* totals, __global int* cell_start,
                           __constant Params* p, int chunks) {
   int range = (int)get_global_id(0);
@@ -23,3 +25,5 @@ __kernel void sort_starts(__global int* histograms, __global const int* totals, 
   }
   if (range == ranges - 1) cell_start[key_count] = next;
 }
+
+#endif

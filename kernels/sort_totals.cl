@@ -3,6 +3,8 @@
 #include "chunks.h"
 #include "grid.h"
 
+#if SQUALL_LANES > 1
+
 __kernel void sort_totals(__global const int* histograms, __global int* totals, __constant Params* p, int chunks) {
   int range = (int)get_global_id(0);
   int ranges = (int)get_global_size(0);
@@ -15,3 +17,5 @@ __kernel void sort_totals(__global const int* histograms, __global int* totals, 
   }
   totals[range] = total;
 }
+
+#endif

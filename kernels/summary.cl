@@ -1,4 +1,5 @@
-/* Reads:  records after the last sub-step, densities and neighbour counts, the chunk's maxima so far, clamps.
+/* Reads:  records after the last sub-step, densities and neighbour counts, maxima so far (with a work-item per
+   particle, one for each index; else one for each chunk), clamps.
    Writes: what the chunk adds to the frame report; sums are integers, exact in any order.
    One work-item = one chunk of particles. */
 #include "chunks.h"
@@ -11,11 +12,18 @@ __kernel void summary(__global const float4* records, __global const float* dens
   int chunks = (int)get_global_size(0);
   int active = cell_start[p->cell_count];
   ChunkSummary sum = {0, 0, 0.0f, 0.0f, 0.0f, 0, 0, 0};
+#if SQUALL_LANES > 1
   float2 largest = maxima[chunk];
+#else
+  float2 largest = (float2)(0.0f, 0.0f);
+#endif
   int end = chunk_begin(count, chunk + 1, chunks);
   for (int i = chunk_begin(count, chunk, chunks); i < end; ++i) {
     float4 position = records[2 * (size_t)i];
     largest = fmax(largest, (float2)(position.w, records[2 * (size_t)i + 1].w));
+#if SQUALL_LANES == 1
+    largest = fmax(largest, maxima[i]);
+#endif
     sum.lost += is_lost(position.x);
     if (statistics && i < active) {
       float error = clamp(densities[i] - 1, 0.0f, 1024.0f);

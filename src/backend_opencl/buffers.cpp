@@ -1,12 +1,14 @@
 #include "backend_opencl/buffers.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <new>
 
 #include "chunks.h"
 #include "core/errors.h"
 #include "core/frame_plan.h"
 #include "lists.h"
+#include "sort_bins.h"
 
 namespace squall::opencl {
 
@@ -25,28 +27,50 @@ struct Request {
   MemoryNeed need;
 };
 
-std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
+/// For the sort by chunks, and what blocks of particles need.
+std::vector<Request> chunk_requests(const Layout& layout, const WorkShape& shape) {
   const std::size_t room = at_least_one(layout.capacity);
   const std::size_t keys = static_cast<std::size_t>(layout.params.cell_count) + 2;
-  const bool blocks = shape.lanes > 1;
   // A block's load may reach beyond the last particle.
-  const std::size_t places =
-      blocks ? (room + static_cast<std::size_t>(shape.lanes)) * sizeof(cl_float) : sizeof(cl_float);
+  const std::size_t places = (room + static_cast<std::size_t>(shape.lanes)) * sizeof(cl_float);
   return {
-      {&Buffers::records, {"particle records", round_up(room * k_record_bytes, k_page)}},
-      {&Buffers::sorted, {"sorted particle records", room * k_record_bytes}},
-      {&Buffers::keys, {"cells of particles", room * sizeof(cl_int)}},
       {&Buffers::histograms, {"cell histograms", shape.chunks * keys * sizeof(cl_int)}},
       {&Buffers::totals, {"cell totals", shape.ranges * sizeof(cl_int)}},
       {&Buffers::cell_start, {"cell starts", (keys + 1) * sizeof(cl_int)}},
-      {&Buffers::densities, {"densities", room * sizeof(cl_float)}},
-      {&Buffers::isolations, {"isolations", layout.drag ? room * sizeof(cl_float) : sizeof(cl_float)}},
-      {&Buffers::neighbours, {"neighbour counts", layout.statistics ? room * sizeof(cl_int) : sizeof(cl_int)}},
       {&Buffers::x, {"x of particles", places}},
       {&Buffers::y, {"y of particles", places}},
       {&Buffers::z, {"z of particles", places}},
-      {&Buffers::lists, {"neighbour lists", (blocks ? room * k_list_entries : 1) * sizeof(cl_int)}},
+      {&Buffers::lists, {"neighbour lists", room * k_list_entries * sizeof(cl_int)}},
       {&Buffers::maxima, {"maxima", shape.chunks * sizeof(cl_float2)}},
+  };
+}
+
+/// For the sort with a work-item per particle, and what such kernels need.
+std::vector<Request> bin_requests(const Layout& layout) {
+  const std::size_t room = at_least_one(layout.capacity);
+  const std::size_t bins = bin_count(static_cast<std::size_t>(layout.params.cell_count), layout.capacity);
+  return {
+      {&Buffers::histograms, {"members of bins", bins * sizeof(cl_int)}},
+      {&Buffers::totals, {"tile totals", bins / k_sort_fan * sizeof(cl_int)}},
+      {&Buffers::group_totals, {"group totals", bins / k_sort_fan / k_sort_fan * sizeof(cl_int)}},
+      {&Buffers::cell_start, {"cell starts", bins * sizeof(cl_int)}},
+      {&Buffers::arrivals, {"arrivals", room * sizeof(cl_int)}},
+      {&Buffers::members, {"bin members", room * sizeof(cl_int)}},
+      {&Buffers::places, {"sorted positions", room * sizeof(cl_float4)}},
+      {&Buffers::maxima, {"maxima", room * sizeof(cl_float2)}},
+  };
+}
+
+std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
+  const std::size_t room = at_least_one(layout.capacity);
+  std::vector<Request> all = shape.lanes > 1 ? chunk_requests(layout, shape) : bin_requests(layout);
+  const std::initializer_list<Request> common = {
+      {&Buffers::records, {"particle records", round_up(room * k_record_bytes, k_page)}},
+      {&Buffers::sorted, {"sorted particle records", room * k_record_bytes}},
+      {&Buffers::keys, {"cells of particles", room * sizeof(cl_int)}},
+      {&Buffers::densities, {"densities", room * sizeof(cl_float)}},
+      {&Buffers::isolations, {"isolations", layout.drag ? room * sizeof(cl_float) : sizeof(cl_float)}},
+      {&Buffers::neighbours, {"neighbour counts", layout.statistics ? room * sizeof(cl_int) : sizeof(cl_int)}},
       {&Buffers::clamps, {"clamps", sizeof(cl_int)}},
       {&Buffers::summaries, {"frame summaries", shape.chunks * sizeof(ChunkSummary)}},
       {&Buffers::substeps, {"sub-step table", k_max_substeps * sizeof(Substep<float>)}},
@@ -54,6 +78,8 @@ std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
       {&Buffers::boxes, {"boxes", at_least_one(layout.boxes.size()) * sizeof(Box<float>), true}},
       {&Buffers::groups, {"held blocks", at_least_one(layout.groups.size()) * sizeof(HeldGroup), true}},
   };
+  all.insert(all.end(), common);
+  return all;
 }
 
 template <class Value>
@@ -90,6 +116,7 @@ WorkShape make_shape(const Machine& machine, const Layout& layout) {
     return asked == 0 ? otherwise : static_cast<std::size_t>(asked);
   };
   WorkShape shape;
+  shape.capacity = layout.capacity;
   shape.lanes = choose_lanes(machine, layout.simd);
   shape.group = value(work.group, shape.group);
   if (const auto largest = machine.device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(); shape.group > largest)
@@ -102,13 +129,14 @@ WorkShape make_shape(const Machine& machine, const Layout& layout) {
   shape.chunks = value(work.chunks, 1) * units;
   shape.ranges = units;
   if (machine.is_cpu) return shape;
-  // Many chunks for many processors, as long as their histograms stay small beside the device's memory.
-  constexpr std::size_t k_histogram_bytes = std::size_t{256} << 20;
   constexpr std::size_t k_most_chunks = 2048;
-  const std::size_t keys = static_cast<std::size_t>(layout.params.cell_count) + 2;
   shape.chunk_group = 32;
   shape.chunks = work.chunks > 0 ? round_up(shape.chunks, 32) : round_up(layout.capacity / 64, 32);
   shape.chunks = std::clamp(shape.chunks, std::size_t{32}, k_most_chunks);
+  if (shape.lanes == 1) return shape;
+  // Many chunks for many processors, as long as their histograms stay small beside the device's memory.
+  constexpr std::size_t k_histogram_bytes = std::size_t{256} << 20;
+  const std::size_t keys = static_cast<std::size_t>(layout.params.cell_count) + 2;
   shape.chunks = std::clamp(k_histogram_bytes / (keys * sizeof(cl_int)) / 32 * 32, std::size_t{32}, shape.chunks);
   shape.ranges = 512;
   return shape;
@@ -136,6 +164,10 @@ Buffers make_buffers(Machine& machine, const Layout& layout, const WorkShape& sh
   upload(machine.queue, buffers.boxes, layout.boxes);
   upload(machine.queue, buffers.groups, layout.groups);
   upload(machine.queue, buffers.substeps, std::vector<Substep<float>>(1));
+  // Every sort leaves zeros for the next one (sort_bin_starts.cl).
+  if (shape.lanes == 1)
+    upload(machine.queue, buffers.histograms,
+           std::vector<cl_int>(buffers.histograms.getInfo<CL_MEM_SIZE>() / sizeof(cl_int)));
   return buffers;
 }
 

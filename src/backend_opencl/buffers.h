@@ -26,12 +26,13 @@ struct Layout {
 /// How work is cut into work-items. Fixed for a run, so that a compiler that specialises kernels by shape meets each
 /// shape once, before the first frame.
 struct WorkShape {
-  std::size_t particles = 0;  ///< work-items, one per particle there is room for, in groups of `group`
+  std::size_t capacity = 0;   ///< particles there is room for
+  std::size_t particles = 0;  ///< work-items, one for each of them, in groups of `group`
   std::size_t group = 64;
-  std::size_t chunks = 1;  ///< of particles, where order matters
-  std::size_t ranges = 1;  ///< of cells
+  std::size_t chunks = 1;  ///< of particles, where order matters or a sum is made
+  std::size_t ranges = 1;  ///< of cells, where the sort goes by chunks
   std::size_t chunk_group = 1;
-  int lanes = 1;          ///< particles per vector: 1 gives every particle a work-item of its own
+  int lanes = 1;          ///< particles per vector: 1 gives every particle a work-item of its own, sort included
   std::size_t parts = 1;  ///< work-items over rows of cells, with more lanes than one
 };
 /// Throws InputError for work sizes that are out of range, or too large for the device.
@@ -49,15 +50,18 @@ struct Buffers {
   cl::Buffer records;                ///< between sub-steps, in the order of the last sort
   cl::Buffer sorted;                 ///< within a sub-step
   cl::Buffer ids[2];                 ///< take turns: the sort reads one and writes the other
-  cl::Buffer keys;                   ///< cell of each particle
-  cl::Buffer histograms;             ///< per chunk: particles per cell, then where they go
-  cl::Buffer totals;                 ///< particles per range of cells
-  cl::Buffer cell_start;             ///< cell_count + 3: cells, held, lost, end
+  cl::Buffer keys;                   ///< cell, or bin (sort_bins.h), of each particle
+  cl::Buffer histograms;             ///< per chunk: particles per cell, then where they go; or members of each bin
+  cl::Buffer totals;                 ///< particles per range of cells, or per tile of bins
+  cl::Buffer group_totals;           ///< particles per group of tiles
+  cl::Buffer arrivals, members;      ///< sort_count.cl, sort_members.cl
+  cl::Buffer cell_start;             ///< cells, then held and lost particles, in one bin each or in several
+  cl::Buffer places;                 ///< positions in sorted order, for kernels with a work-item per particle
   cl::Buffer densities, isolations;  ///< in sorted order
   cl::Buffer neighbours;             ///< likewise
   cl::Buffer x, y, z;                ///< likewise, for kernels that work on blocks
   cl::Buffer lists;                  ///< likewise: neighbours of blocks
-  cl::Buffer maxima;                 ///< per chunk: |v|^2 and |a|^2 of the frame so far
+  cl::Buffer maxima;                 ///< per chunk or per index: |v|^2 and |a|^2 of the frame so far
   cl::Buffer clamps;                 ///< of the frame
   cl::Buffer summaries;              ///< per chunk, at the end of a frame
   cl::Buffer substeps;               ///< the frame's table

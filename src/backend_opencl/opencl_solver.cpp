@@ -83,7 +83,7 @@ class OpenclSolver final : public Solver {
   Launcher launcher_;
   WorkShape shape_;
   Buffers buffers_;
-  std::optional<Sort> sort_;
+  std::unique_ptr<Sort> sort_;
   std::optional<Passes> passes_;
   std::optional<PositionReader> reader_;  // after the buffers: it unmaps before they go
   std::vector<Substep<float>> table_;
@@ -116,7 +116,7 @@ void OpenclSolver::set_up() {
   const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(), options_);
   const bool shared = PositionReader::wants_shared(layout.readback) && shares_host_memory(machine_, program);
   buffers_ = make_buffers(machine_, layout, shape_, shared && layout.readback == Readback::mapped);
-  sort_.emplace(program, buffers_, shape_);
+  sort_ = make_sort(program, buffers_, shape_);
   passes_.emplace(program, buffers_, shape_);
   reader_.emplace(machine_, program, buffers_, layout, shape_, shared);
   summaries_.resize(shape_.chunks);

@@ -33,10 +33,10 @@ void Passes::make_particle_kernels(const cl::Program& program, const Buffers& bu
   density_ = cl::Kernel(program, "density");
   density_statistics_ = cl::Kernel(program, "density_statistics");
   forces_ = cl::Kernel(program, "forces");
-  set_arguments(density_, buffers.sorted, buffers.densities, buffers.isolations, buffers.cell_start, buffers.params,
-                buffers.boxes, buffers.substeps, 0);
-  set_arguments(density_statistics_, buffers.sorted, buffers.densities, buffers.isolations, buffers.cell_start,
-                buffers.params, buffers.boxes, buffers.substeps, 0, buffers.neighbours);
+  set_arguments(density_, buffers.places, buffers.sorted, buffers.densities, buffers.isolations, buffers.cell_start,
+                buffers.params, buffers.boxes, buffers.substeps, 0);
+  set_arguments(density_statistics_, buffers.places, buffers.sorted, buffers.densities, buffers.isolations,
+                buffers.cell_start, buffers.params, buffers.boxes, buffers.substeps, 0, buffers.neighbours);
   set_arguments(forces_, buffers.sorted, buffers.records, buffers.densities, buffers.isolations, buffers.cell_start,
                 buffers.clamps, buffers.params, buffers.boxes, buffers.substeps, 0, 0);
 }
@@ -62,7 +62,7 @@ void Passes::enqueue_release(Launcher& launcher, int step, int count, int ids_no
 
 void Passes::enqueue_density(Launcher& launcher, int step, bool statistics) {
   cl::Kernel& kernel = statistics ? density_statistics_ : density_;
-  kernel.setArg(shape_.lanes == 1 ? 7 : 12, step);
+  kernel.setArg(shape_.lanes == 1 ? 8 : 12, step);
   launcher.run(kernel, pass_items_, pass_group_, "density");
 }
 

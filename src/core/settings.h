@@ -33,7 +33,7 @@ enum class Readback {
 struct WorkSizes {
   int group = 0;   ///< work-items per group, where a work-item is a particle: a power of two, 16..1024
   int parts = 0;   ///< shares of the water per compute unit, where particles go in vectors: 1..64
-  int chunks = 0;  ///< chunks per compute unit that the sort works on: 1..64
+  int chunks = 0;  ///< chunks per compute unit, where the sort goes by chunks, and of sums: 1..64
   bool operator==(const WorkSizes&) const = default;
 };
 
