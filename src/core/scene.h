@@ -133,6 +133,9 @@ Particles initial_particles(const Scene& scene);
 /// Initial particles plus what rain may add: the room a solver needs.
 std::int64_t particle_capacity(const Scene& scene);
 
+/// What the scene says, however it was written: print_scene() with the particles of a file named by what they are.
+std::string identity_text(const Scene& scene);
+
 /// Order-free identity of what the scene says, 16 hex digits: equal for files that mean the same.
 std::string scene_hash(const Scene& scene);
 

@@ -116,12 +116,14 @@ std::string print_scene(const Scene& scene) {
   return text;
 }
 
-std::string scene_hash(const Scene& scene) {
+std::string identity_text(const Scene& scene) {
   // A particle file counts by what is in it, not by where it lies.
   Scene nameless = scene;
   for (Scene::ParticleFile& particle_file : nameless.particle_files)
     particle_file.file = hash_text(particles_hash(particle_file.particles));
-  return hash_text(text_hash(print_scene(nameless)));
+  return print_scene(nameless);
 }
+
+std::string scene_hash(const Scene& scene) { return hash_text(text_hash(identity_text(scene))); }
 
 }  // namespace squall
