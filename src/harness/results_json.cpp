@@ -99,6 +99,7 @@ Json to_json(const Row& row) {
   if (!row.error.empty()) json["error"] = row.error;
   if (row.interrupted) json["interrupted"] = true;
   if (row.plan.settings.trace) json["traced"] = true;
+  if (row.start_frame > 0) json["start_frame"] = row.start_frame;
   json["clamps"] = row.clamps;
   json["lost_particles"] = row.lost_particles;
   json["state_hash"] = hash_text(row.state_hash);

@@ -23,6 +23,7 @@ struct RunPlan {
   int warm_up_frames = 5;
   int frames = 60;      ///< counted ones
   bool rewind = false;  ///< start over after the warm-up: the counted frames begin at the state that was loaded
+  std::optional<double> energy_in_j;  ///< brought in up to that state, if it continues a run; else its own energy
 };
 
 /// One counted frame.
@@ -50,7 +51,8 @@ struct Row {
   bool interrupted = false;  ///< ended before its planned frames, without an error
 
   std::int64_t particles = 0;
-  int frames = 0;  ///< counted
+  std::uint64_t start_frame = 0;  ///< frames done before this run: above 0 if it continues one
+  int frames = 0;                 ///< counted
   std::int64_t steps = 0;
   double simulated_s = 0.0;
   double wall_s = 0.0;  ///< sum of frame_ms

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <new>
 #include <utility>
 
 #include "core/state_hash.h"
@@ -52,7 +53,11 @@ Run::Run(std::unique_ptr<Solver> solver, RunPlan plan) : solver_(std::move(solve
   check_plan(plan_);
   start_ = solver_->state();
   state_ = start_;
-  energy_in_ = total_energy(scene(), start_.particles);
+  energy_in_ = energy_of_start();
+}
+
+double Run::energy_of_start() const {
+  return plan_.energy_in_j ? *plan_.energy_in_j : total_energy(scene(), start_.particles);
 }
 
 bool Run::done() const { return !error_.empty() || steps_done_ >= steps_planned(); }
@@ -66,13 +71,16 @@ void Run::step() {
   } catch (const DeviceError& failure) {
     error_ = failure.what();
     device_failed_ = true;
+  } catch (const std::bad_alloc&) {
+    error_ = "out of memory; use fewer particles, or close what else needs memory";
+    device_failed_ = true;
   }
 }
 
 void Run::rewind() {
   solver_->restore(start_);
   state_ = start_;
-  energy_in_ = total_energy(scene(), start_.particles);
+  energy_in_ = energy_of_start();
 }
 
 void Run::give_up_warm_up() {
@@ -134,6 +142,7 @@ Row Run::row() const {
   row.device_failed = device_failed_;
   row.interrupted = !done();
   row.particles = static_cast<std::int64_t>(state_.particles.size());
+  row.start_frame = start_.clock.frame;
   row.lost_particles = solver_->report().lost;
   row.state_hash = state_hash_;
   summarise(frames_, 1.0 / scene().time.frame_rate_hz, row);
@@ -142,8 +151,7 @@ Row Run::row() const {
   return row;
 }
 
-Row run_once(std::unique_ptr<Solver> solver, const RunPlan& plan, const AfterFrame& after_frame) {
-  Run run(std::move(solver), plan);
+Row run_to_end(Run& run, const AfterFrame& after_frame) {
   while (!run.done()) {
     const int before = run.steps_done();
     run.step();
@@ -151,6 +159,11 @@ Row run_once(std::unique_ptr<Solver> solver, const RunPlan& plan, const AfterFra
     if (did_a_frame && after_frame && !after_frame(run)) break;
   }
   return run.row();
+}
+
+Row run_once(std::unique_ptr<Solver> solver, const RunPlan& plan, const AfterFrame& after_frame) {
+  Run run(std::move(solver), plan);
+  return run_to_end(run, after_frame);
 }
 
 Profile profile_run(const SolverFactory& make, RunPlan plan, const State& state) {

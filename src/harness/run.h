@@ -35,6 +35,8 @@ class Run {
   std::uint64_t state_hash() const { return state_hash_; }  ///< of that state
   const std::vector<FrameRecord>& frames() const { return frames_; }
   const std::string& error() const { return error_; }
+  bool device_failed() const { return device_failed_; }  ///< the error is the machine's; the state is that before it
+  double energy_in() const { return energy_in_; }        ///< J: of the start and of all particles added since
 
   /// What has been measured so far.
   Row row() const;
@@ -42,6 +44,7 @@ class Run {
  private:
   void advance();
   void rewind();
+  double energy_of_start() const;
   /// After a wrong end state in a warm-up that is rewound: the counted frames start at once, so that the same frames
   /// are played again and leave their records up to the error.
   void give_up_warm_up();
@@ -52,7 +55,7 @@ class Run {
   std::unique_ptr<Solver> solver_;
   RunPlan plan_;
   State start_, state_;
-  double energy_in_ = 0.0;  ///< J: of the start and of all particles added since
+  double energy_in_ = 0.0;
   std::uint64_t state_hash_ = 0;
   std::vector<FrameRecord> frames_;
   int steps_done_ = 0;
@@ -63,6 +66,9 @@ class Run {
 
 /// Called after every frame; false ends the run early, with what was measured until then.
 using AfterFrame = std::function<bool(const Run& run)>;
+
+/// Runs to the end of the plan, or until `after_frame` is enough.
+Row run_to_end(Run& run, const AfterFrame& after_frame = {});
 
 /// The one primitive: runs a plan to its end.
 Row run_once(std::unique_ptr<Solver> solver, const RunPlan& plan, const AfterFrame& after_frame = {});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <new>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -37,6 +38,7 @@ struct Faults {
   int differs_from = std::numeric_limits<int>::max();  ///< particle 5 is 0.01 m further in x
   int loses_at = std::numeric_limits<int>::max();
   int device_fails_at = std::numeric_limits<int>::max();
+  int runs_out_of_memory_at = std::numeric_limits<int>::max();
   int hurries_from = std::numeric_limits<int>::max();       ///< reports 1e6 m/s, too fast for any number of sub-steps
   int delivers_wrong_at = std::numeric_limits<int>::max();  ///< position 7 is 0.01 m further in x than in the state
   bool states_not_finite = false;
@@ -60,6 +62,7 @@ class FakeSolver final : public Solver {
     const auto frame = static_cast<int>(plan.frame);
     std::this_thread::sleep_for(std::chrono::milliseconds(faults_.frame_lasts_ms));
     if (frame >= faults_.device_fails_at) throw DeviceError("the fake device is gone");
+    if (frame >= faults_.runs_out_of_memory_at) throw std::bad_alloc();
     for (std::size_t i = 0; i < particles_.size(); ++i) {
       particles_.positions[i].z() += 1e-3;
       if (frame == faults_.differs_from && particles_.ids[i] == 5) particles_.positions[i].x() += 0.01;

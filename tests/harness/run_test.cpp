@@ -125,6 +125,37 @@ TEST(Run, AFailingDeviceEndsTheRunAndIsSaid) {
   EXPECT_EQ(row.frames, 1);
 }
 
+TEST(Run, MemoryThatRunsOutEndsTheRunAndKeepsItsState) {
+  RunPlan plan = short_plan("fake");
+  plan.warm_up_frames = 0;
+  Faults faults;
+  faults.runs_out_of_memory_at = 4;
+  harness::Run run(make_fake(plan, faults), plan);
+  const Row row = run_to_end(run);
+  EXPECT_TRUE(run.device_failed());
+  EXPECT_NE(row.error.find("out of memory"), std::string::npos) << row.error;
+  EXPECT_EQ(row.frames, 4);
+  EXPECT_EQ(run.state().clock.frame, 4u) << "the last one that is whole";
+}
+
+// What a run went on from counts as brought in: half of the energy is then a drift of +100 %.
+TEST(Run, EnergyDriftCountsFromWhereTheWaterBegan) {
+  RunPlan plan = short_plan("fake");
+  const double energy = harness::Run(make_fake(plan), plan).energy_in();
+  ASSERT_GT(energy, 0.0);
+  const double drift = run_once(make_fake(plan), plan).energy_drift.value_or(-1);
+  plan.energy_in_j = energy / 2;
+  EXPECT_NEAR(run_once(make_fake(plan), plan).energy_drift.value_or(-1), 2 * drift + 1, 1e-12);
+}
+
+TEST(Run, SaysWhatItGoesOnFrom) {
+  const RunPlan plan = short_plan("fake");
+  auto solver = make_fake(plan);
+  EXPECT_EQ(run_once(make_fake(plan), plan).start_frame, 0u);
+  for (int frame = 0; frame < 3; ++frame) solver->advance();
+  EXPECT_EQ(run_once(std::move(solver), plan).start_frame, 3u);
+}
+
 TEST(Run, RefusesPlansThatMeasureNothing) {
   RunPlan plan = short_plan("fake");
   plan.frames = 0;
