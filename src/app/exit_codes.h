@@ -9,7 +9,7 @@ enum ExitCode {
   k_exit_fine = 0,
   k_exit_internal = 1,
   k_exit_usage = 2,
-  k_exit_input = 3,     ///< scene or input file
+  k_exit_input = 3,     ///< scene, checkpoint or output file
   k_exit_device = 4,    ///< missing or failed
   k_exit_disagree = 5,  ///< results that must be equal are not
   k_exit_unstable = 6,  ///< not finite, lost particles

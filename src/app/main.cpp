@@ -1,5 +1,6 @@
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include "app/commands.h"
 #include "app/exit_codes.h"
@@ -50,6 +51,8 @@ int main(int argc, char** argv) {
     return complain(error.what(), k_exit_input);
   } catch (const squall::DeviceError& error) {
     return complain(error.what(), k_exit_device);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory; use fewer particles, or close what else needs memory", k_exit_device);
   } catch (const std::exception& error) {
     return complain((std::string("internal error: ") + error.what()).c_str(), k_exit_internal);
   }

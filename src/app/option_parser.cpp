@@ -27,8 +27,8 @@ struct Raw {
 };
 
 constexpr const char* k_later_commands[] = {"agree", "study", "stress", "cost", "validate", "view"};
-constexpr const char* k_later_options[] = {"--fast-math", "--checkpoint", "--checkpoint-every",
-                                           "--restart",   "--tolerance",  "--max-error"};
+constexpr const char* k_later_options[] = {"--fast-math", "--tolerance", "--max-error"};
+constexpr const char* k_checkpoint_options[] = {"--checkpoint", "--checkpoint-every", "--restart"};
 
 /// --dt-max becomes SQUALL_DT_MAX.
 std::string variable_of(std::string option) {
@@ -49,6 +49,17 @@ void add_later_options(CLI::App& command) {
     // An empty group hides the option from --help.
     command.add_option(name)->expected(0, 1)->group("")->envname(variable_of(name));
   }
+}
+
+/// `compare` and `sweep` have several runs; a checkpoint holds one.
+void add_later_checkpoints(CLI::App& command) {
+  for (const char* name : k_checkpoint_options) command.add_option(name)->expected(0, 1)->group("");
+}
+
+void refuse_later_checkpoints(const CLI::App& command) {
+  for (const char* name : k_checkpoint_options)
+    if (command.get_option(name)->count() > 0)
+      throw UsageError(fmt::format("{} of {} is not in this version; run has it", name, command.get_name()));
 }
 
 void refuse_later_options(const CLI::App& command) {
@@ -109,6 +120,16 @@ void add_measuring_options(CLI::App& command, Options& options, Raw& raw) {
       ->type_name("NAME");
 }
 
+void add_checkpoint_options(CLI::App& command, Options& options) {
+  add(command, "--checkpoint", options.checkpoint, "Save the run to FILE at its end, for --restart")->type_name("FILE");
+  add(command, "--checkpoint-every", options.checkpoint_every_s, "Also after every S simulated seconds")
+      ->check(positive())
+      ->type_name("S");
+  add(command, "--restart", options.restart,
+      "Go on from this checkpoint of the same scene, on any backend, for N more frames or to the scene's end")
+      ->type_name("FILE");
+}
+
 CLI::App* add_run(CLI::App& app, Options& options, Raw& raw) {
   CLI::App* run = app.add_subcommand("run", "Run a scene on one backend; frames to disk if asked");
   add_water_options(*run, options, raw);
@@ -129,6 +150,7 @@ CLI::App* add_run(CLI::App& app, Options& options, Raw& raw) {
   add(*run, "--save-every", options.save_every, "With --out: write the particles after every N-th frame")
       ->check(CLI::Range(1, 10'000'000))
       ->type_name("N");
+  add_checkpoint_options(*run, options);
   run->add_flag("--print-scene", options.print_scene, "Print the scene as it would run, as a scene file, and stop");
   add_output_options(*run, options);
   add_later_options(*run);
@@ -156,6 +178,7 @@ CLI::App* add_compare(CLI::App& app, Options& options, Raw& raw) {
   add_measuring_options(*compare, options, raw);
   add_output_options(*compare, options);
   add_later_options(*compare);
+  add_later_checkpoints(*compare);
   return compare;
 }
 
@@ -179,6 +202,7 @@ CLI::App* add_sweep(CLI::App& app, Options& options, Raw& raw) {
       ->type_name("DIR");
   add_output_options(*sweep, options);
   add_later_options(*sweep);
+  add_later_checkpoints(*sweep);
   return sweep;
 }
 
@@ -219,8 +243,12 @@ void understand(const Raw& raw, Options& options) {
     throw UsageError(fmt::format("--format '{}' is unknown; there are squall, google-benchmark", raw.format));
   if (options.format != Format::squall && options.json.empty()) options.json = "-";
   if (options.trace == "-") throw UsageError("--trace writes to a file, not to stdout; give it a name");
+  if (options.checkpoint == "-" || options.restart == "-")
+    throw UsageError("--checkpoint and --restart take files, not stdout or stdin; give them names");
   if (options.save_every > 0 && options.out.empty())
     throw UsageError("--save-every needs a folder to write to; add --out DIR");
+  if (options.checkpoint_every_s && options.checkpoint.empty())
+    throw UsageError("--checkpoint-every needs a file to write to; add --checkpoint FILE");
 }
 
 /// The parser would only say that a command is required.
@@ -246,8 +274,8 @@ std::optional<Options> parse_options(int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("squall {} ({})", k_squall_version, k_git_revision));
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 fine, 1 internal error, 2 usage, 3 scene or input file, 4 device, 5 results disagree,\n"
-      "6 unstable or not finite, 7 budget exceeded, 130 interrupted.\n"
+      "Exit codes: 0 fine, 1 internal error, 2 usage, 3 scene, checkpoint or output file, 4 device,\n"
+      "5 results disagree, 6 unstable or not finite, 7 budget exceeded, 130 interrupted.\n"
       "Every option --some-name has a variable SQUALL_SOME_NAME; the option wins, and the variable wins over the "
       "scene.");
   Options options;
@@ -272,6 +300,8 @@ std::optional<Options> parse_options(int argc, char** argv) {
     if (app.got_subcommand(name)) throw UsageError(fmt::format("the command '{}' is not in this version", name));
   options.command = *devices ? Command::devices : *run ? Command::run : *compare ? Command::compare : Command::sweep;
   if (!*devices) refuse_later_options(*run ? *run : *compare ? *compare : *sweep);
+  for (const CLI::App* command : {compare, sweep})
+    if (*command) refuse_later_checkpoints(*command);
   understand(raw, options);
   settle_length(argc, argv, options);
   const auto is_flag = [&](const std::string& option) { return on_command_line(argc, argv, option); };

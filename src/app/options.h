@@ -34,9 +34,12 @@ struct Options {
   bool tune = false;
   std::string tuning;  ///< file with tuned work sizes, or "none"; empty: the one in the cache folder
   std::string out;
-  int save_every = 0;  ///< frames; 0: never
-  std::string trace;   ///< file; empty: none
-  std::string json;    ///< file, or "-" for stdout
+  int save_every = 0;      ///< frames; 0: never
+  std::string trace;       ///< file; empty: none
+  std::string checkpoint;  ///< file; empty: none
+  std::optional<double> checkpoint_every_s;
+  std::string restart;  ///< file; empty: from the start
+  std::string json;     ///< file, or "-" for stdout
   Format format = Format::squall;
   bool quiet = false;
   bool print_scene = false;

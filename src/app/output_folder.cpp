@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <limits>
+#include <sstream>
 
+#include "app/earlier_rows.h"
+#include "core/checkpoint.h"
 #include "core/errors.h"
 #include "harness/measures.h"
 #include "harness/results_csv.h"
@@ -22,6 +27,13 @@ bool is_frame_file(const std::string& name) {
                                                              end, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+std::uint64_t frame_of(const std::string& frame_file) {
+  std::uint64_t frame = std::numeric_limits<std::uint64_t>::max();
+  const char* digits = frame_file.c_str() + frame_file.find('_') + 1;
+  std::from_chars(digits, frame_file.c_str() + frame_file.find('.'), frame);
+  return frame;
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> OutputFolder::own_files(const std::filesystem::path& folder) {
@@ -33,16 +45,60 @@ std::vector<std::filesystem::path> OutputFolder::own_files(const std::filesystem
   return files;
 }
 
-OutputFolder::OutputFolder(const std::string& path, const Workload& workload) : path_(path) {
+OutputFolder::OutputFolder(const std::string& path, const Workload& workload, std::uint64_t earlier_frames)
+    : path_(path),
+      earlier_frames_(earlier_frames),
+      earlier_s_(static_cast<double>(earlier_frames) / workload.scene.time.frame_rate_hz) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
-  for (const auto& file : own_files(path_)) std::filesystem::remove(file, error);
+  if (earlier_frames_ > 0) check_earlier_scene(workload);
+  remove_old_files();
   auto scene = open("scene.toml");
   scene << print_workload(workload) << std::flush;
   check(scene, path_ / "scene.toml");
-  frames_ = open("frames.csv");
-  harness::write_frames_header(frames_);
+  std::ostringstream header;
+  harness::write_frames_header(header);
+  frames_ = open_rows("frames.csv", header.str());
+  if (earlier_frames_ > 0) open_series();  // rows that come after must not outlive a run that makes none
+}
+
+void OutputFolder::check_earlier_scene(const Workload& workload) const {
+  const std::string file = (path_ / "scene.toml").string();
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return;
+  const Scene earlier = load_scene(file);
+  if (checkpoint_scene_text(earlier, earlier.solver.pressure.value_or(workload.pressure)) !=
+      checkpoint_scene_text(workload.scene, workload.pressure))
+    throw InputError(path_.string() +
+                     ": holds the results of another scene, which this run does not go on from; name another --out");
+}
+
+void OutputFolder::remove_old_files() const {
+  std::error_code error;
+  for (const auto& file : own_files(path_)) {
+    const std::string name = file.filename().string();
+    const bool is_rows = name == "frames.csv" || name == "series.csv";
+    const bool is_earlier = is_frame_file(name) ? frame_of(name) < earlier_frames_ : is_rows && earlier_frames_ > 0;
+    if (!is_earlier) std::filesystem::remove(file, error);
+  }
+}
+
+std::ofstream OutputFolder::open_rows(const std::string& name, const std::string& header) const {
+  if (earlier_frames_ == 0 || !keep_rows_until(path_ / name, header, earlier_s_)) {
+    auto file = open(name);
+    file << header;
+    return file;
+  }
+  std::ofstream file(path_ / name, std::ios::app);
+  check(file, path_ / name);
+  return file;
+}
+
+void OutputFolder::open_series() {
+  std::ostringstream header;
+  harness::write_series_header(header);
+  series_ = open_rows("series.csv", header.str());
 }
 
 std::ofstream OutputFolder::open(const std::string& name) const {
@@ -59,12 +115,9 @@ void OutputFolder::after_frame(const harness::Run& run, int save_every) {
   if (run.frames().empty()) return;
   const auto& frame = run.frames().back();
   add_frame(run.plan().label, frame);
-  if (!series_.is_open()) {
-    series_ = open("series.csv");
-    harness::write_series_header(series_);
-  }
+  if (!series_.is_open()) open_series();
   harness::write_observation(series_, harness::observe(run.scene(), run.state().particles, frame.time_s));
-  if (save_every > 0 && run.frames().size() % static_cast<std::size_t>(save_every) == 0) save_particles(run);
+  if (save_every > 0 && run.state().clock.frame % static_cast<std::uint64_t>(save_every) == 0) save_particles(run);
 }
 
 void OutputFolder::add_frame(const std::string& label, const harness::FrameRecord& frame) {
@@ -77,6 +130,11 @@ void OutputFolder::save_particles(const harness::Run& run) const {
   harness::write_particles(file, run.scene(), run.state());
   file.flush();
   check(file, path_ / name);
+}
+
+void OutputFolder::flush() {
+  frames_.flush();
+  series_.flush();
 }
 
 void OutputFolder::finish() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -14,7 +15,9 @@ namespace squall::app {
 /// files of these names from an earlier run are removed. Throws InputError for what cannot be written.
 class OutputFolder {
  public:
-  OutputFolder(const std::string& path, const Workload& workload);
+  /// A run that goes on from `earlier_frames` frames keeps what they left here, and throws InputError if that is of
+  /// another scene.
+  OutputFolder(const std::string& path, const Workload& workload, std::uint64_t earlier_frames = 0);
 
   /// Paths in this folder that are the names above, whether there or not; of frame_000000.csv only those there.
   static std::vector<std::filesystem::path> own_files(const std::filesystem::path& folder);
@@ -22,15 +25,23 @@ class OutputFolder {
   /// Writes what follows from the frame that the run has just counted.
   void after_frame(const harness::Run& run, int save_every);
   void add_frame(const std::string& label, const harness::FrameRecord& frame);
+  /// Hands what was written so far to the system: it outlives this process.
+  void flush();
   /// Says so if the disk did not take everything.
   void finish();
 
  private:
+  void check_earlier_scene(const Workload& workload) const;
+  void remove_old_files() const;
+  void open_series();
   std::ofstream open(const std::string& name) const;
+  std::ofstream open_rows(const std::string& name, const std::string& header) const;
   static void check(const std::ofstream& file, const std::filesystem::path& path);
   void save_particles(const harness::Run& run) const;
 
   std::filesystem::path path_;
+  std::uint64_t earlier_frames_ = 0;
+  double earlier_s_ = 0.0;  ///< what they simulated
   std::ofstream frames_, series_;
 };
 

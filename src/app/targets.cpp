@@ -21,8 +21,22 @@ void protect(const char* option, const fs::path& target, const std::vector<std::
     std::error_code error;
     if (!fs::equivalent(target, input, error) || error) continue;
     throw UsageError(
-        fmt::format("{} would overwrite {}, which this scene is read from; name another place", option, input));
+        fmt::format("{} would overwrite {}, which this run is read from; name another place", option, input));
   }
+}
+
+struct Target {
+  const char* option;
+  fs::path path;
+};
+
+/// Refuses an option that writes to the same file as one of `others`.
+void refuse_twins(const Target& target, const std::vector<Target>& others) {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(target.path, error);
+  for (const auto& other : others)
+    if (fs::weakly_canonical(other.path, error) == path)
+      throw UsageError(fmt::format("{} and {} name the same file; give each its own", other.option, target.option));
 }
 
 void check_target(const std::string& target) {
@@ -42,13 +56,20 @@ void check_target(const std::string& target) {
 void protect_inputs(const Options& options, const Workload& workload, const std::vector<fs::path>& out_files) {
   std::vector<std::string> inputs{options.scene};
   for (const auto& file : workload.scene.particle_files) inputs.push_back(file.file);
-  if (!options.json.empty() && !options.json_alone()) protect("--json", options.json, inputs);
-  if (!options.trace.empty()) protect("--trace", options.trace, inputs);
-  std::error_code error;
-  if (!options.trace.empty() && !options.json.empty() && !options.json_alone() &&
-      fs::weakly_canonical(options.trace, error) == fs::weakly_canonical(options.json, error))
-    throw UsageError("--json and --trace name the same file; give each its own");
-  for (const auto& file : out_files) protect("--out", file, inputs);
+  // A run may replace the checkpoint that it went on from; nothing else may.
+  if (!options.checkpoint.empty()) protect("--checkpoint", options.checkpoint, inputs);
+  if (!options.restart.empty()) inputs.push_back(options.restart);
+  std::vector<Target> targets;
+  const auto add = [&](const char* option, const std::string& file) {
+    if (file.empty() || file == "-") return;
+    refuse_twins({option, file}, targets);
+    targets.push_back({option, file});
+  };
+  add("--json", options.json);
+  add("--trace", options.trace);
+  for (const auto& file : out_files) targets.push_back({"--out", file});
+  for (const auto& target : targets) protect(target.option, target.path, inputs);
+  add("--checkpoint", options.checkpoint);
 }
 
 void protect_inputs(const Options& options, const Workload& workload) {

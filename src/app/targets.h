@@ -8,8 +8,9 @@
 
 namespace squall::app {
 
-/// Refuses, before anything is written, --out, --json and --trace that would destroy the scene file or a particle file
-/// of it, and --json and --trace to one file (UsageError). `out_files`: what the command writes into the folder of
+/// Refuses, before anything is written, --out, --json, --trace and --checkpoint that would destroy the scene file, a
+/// particle file of it or what --restart reads, and two of them to one file (UsageError). `out_files`: what the command
+/// writes into the folder of
 /// --out.
 void protect_inputs(const Options& options, const Workload& workload,
                     const std::vector<std::filesystem::path>& out_files);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -47,12 +48,13 @@ struct Outcome {
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
 /// The command squall as a process of its own, its output in files; stdout goes to `stdout_to`, or is closed, if said.
+/// `file_limit`: files take so many bytes and no more, as on a full disk; 0: no limit.
 class Program {
  public:
   static constexpr const char* k_closed = "closed";
 
   explicit Program(const std::vector<std::string>& arguments, const Environment& environment = {},
-                   const std::string& stdout_to = "") {
+                   const std::string& stdout_to = "", rlim_t file_limit = 0) {
     std::fflush(nullptr);  // what is buffered here would be written by the child, too
     child_ = fork();
     if (child_ != 0) return;
@@ -62,6 +64,7 @@ class Program {
     if (std::freopen(place.c_str(), "w", stdout) == nullptr || std::freopen(err().c_str(), "w", stderr) == nullptr)
       _exit(126);
     if (stdout_to == k_closed) close(STDOUT_FILENO);
+    if (const rlimit limit{file_limit, file_limit}; file_limit > 0) setrlimit(RLIMIT_FSIZE, &limit);
     std::vector<std::string> texts{SQUALL_PROGRAM};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
     std::vector<char*> words;
@@ -72,6 +75,9 @@ class Program {
   }
 
   void interrupt() const { kill(child_, SIGINT); }
+  void kill_now() const { kill(child_, SIGKILL); }
+  void stop() const { kill(child_, SIGSTOP); }
+  void go_on() const { kill(child_, SIGCONT); }
 
   Outcome wait() {
     int status = 0;

@@ -35,8 +35,7 @@ TEST(Usage, OptionsThatAreNotThere) {
   expect_usage_error({"devices", "--frames", "3"}, "--frames");
   expect_usage_error({"sweep", k_tiny, "--trace", "trace.json"}, "--trace");
   expect_usage_error({"sweep", k_tiny, "--tune"}, "--tune");
-  for (const std::string later :
-       {"--fast-math", "--checkpoint=c", "--checkpoint-every=1", "--restart=c", "--tolerance=1", "--max-error=1"}) {
+  for (const std::string later : {"--fast-math", "--tolerance=1", "--max-error=1"}) {
     expect_usage_error({"run", k_tiny, "--backend", "reference", later}, "not in this version");
     expect_usage_error({"compare", k_tiny, later}, "not in this version");
   }
@@ -117,7 +116,7 @@ TEST(Usage, AFlagBeatsAVariableThatContradictsIt) {
 TEST(Usage, VariablesAreCheckedLikeOptions) {
   expect_usage_error({"run", k_tiny, "--backend", "reference"}, "--frames", {{"SQUALL_FRAMES", "0"}});
   expect_usage_error({"run", k_tiny}, "cuda", {{"SQUALL_BACKEND", "cuda"}});
-  expect_usage_error({"run", k_tiny, "--backend", "reference"}, "not in this version", {{"SQUALL_CHECKPOINT", "c"}});
+  expect_usage_error({"run", k_tiny, "--backend", "reference"}, "not in this version", {{"SQUALL_TOLERANCE", "1"}});
 }
 
 TEST(Usage, VariablesOfOtherCommandsAreNoConcern) {
@@ -125,6 +124,7 @@ TEST(Usage, VariablesOfOtherCommandsAreNoConcern) {
   // A list is fine for compare; run takes one.
   EXPECT_EQ(squall({"compare", k_tiny, "--backend", "reference", "--frames", "1"}, {{"SQUALL_THREADS", "1,2"}}).code,
             0);
+  EXPECT_EQ(squall({"compare", k_tiny, "--backend", "reference", "--frames", "1"}, {{"SQUALL_RESTART", "c"}}).code, 0);
   expect_usage_error({"run", k_tiny, "--frames", "1"}, "--threads", {{"SQUALL_THREADS", "1,2"}});
 }
 
