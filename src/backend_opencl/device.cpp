@@ -73,6 +73,15 @@ std::vector<cl::Device> devices_of(const cl::Platform& platform) {
   return devices;
 }
 
+std::string no_device_text(const std::vector<cl::Platform>& platforms) {
+  std::string names;
+  for (const auto& platform : platforms) names += (names.empty() ? "" : ", ") + platform.getInfo<CL_PLATFORM_NAME>();
+  if (names.empty()) return "no OpenCL driver offers a device (Debian: apt-get install pocl-opencl-icd)";
+  // PoCL says no more than that either.
+  return "no OpenCL driver offers a device: " + names +
+         " found none (PoCL: where it cannot write its cache; set POCL_CACHE_DIR to a folder that can be written)";
+}
+
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -157,7 +166,7 @@ std::vector<FoundDevice> find_devices(std::string* problem) {
     for (const auto& platform : platforms)
       for (const auto& device : devices_of(platform))
         found.push_back({device, describe(platform, device, static_cast<int>(found.size()))});
-    if (found.empty()) why = "no OpenCL driver offers a device (Debian: apt-get install pocl-opencl-icd)";
+    if (found.empty()) why = no_device_text(platforms);
   } catch (const cl::Error& error) {
     why = device_error(error, "").what();
   } catch (const std::exception& error) {

@@ -4,20 +4,30 @@
 
 namespace squall::opencl {
 
+namespace {
+
+/// What the compiler said; nothing where the driver, failing, has no log either.
+std::string build_log(const cl::Program& program, const cl::Device& device) {
+  try {
+    return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
+  } catch (const cl::Error&) {
+    return "";
+  }
+}
+
+}  // namespace
+
 cl::Program build_program(const cl::Context& context, const cl::Device& device,
                           const std::vector<KernelSource>& sources, const std::string& options) {
   cl::Program::Sources texts;
   for (const auto& source : sources) texts.emplace_back(source.text);
   cl::Program program(context, texts);
-  try {
-    program.build(std::vector<cl::Device>{device}, options.c_str());
-  } catch (const cl::BuildError& error) {
-    std::string text = std::string("the kernels do not build on ") + device.getInfo<CL_DEVICE_NAME>() + ": " +
-                       error_name(error.err()) + " with options \"" + options + "\"";
-    for (const auto& log : error.getBuildLog()) text += "\n" + log.second;
-    throw DeviceError(text);
-  }
-  return program;
+  // Not by cl::Program::build(), which would report a log that cannot be had in place of why the build failed.
+  const cl_device_id id = device();
+  const cl_int code = ::clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
+  if (code == CL_SUCCESS) return program;
+  throw DeviceError(std::string("the kernels do not build on ") + device.getInfo<CL_DEVICE_NAME>() + ": " +
+                    error_name(code) + " with options \"" + options + "\"\n" + build_log(program, device));
 }
 
 }  // namespace squall::opencl

@@ -179,5 +179,43 @@ TEST_P(HardCases, ThinGapsDoNotExplode) {
   }
 }
 
+// A frame of a second, as after a hitch of the program around: as many sub-steps as that needs, and no more energy than
+// there was (1.15 of it after a second, docs/physics.md: the lattice starts a little compressed).
+TEST_P(HardCases, AFrameOfASecondIsCutIntoSubsteps) {
+  Scene scene = filled_tank(1);
+  scene.time.frame_rate_hz = 1;
+  const auto solver = make(scene);
+  const auto energy = [&] {
+    double sum = 0;
+    const Particles now = solver->state().particles;
+    for (std::size_t i = 0; i < now.size(); ++i)
+      sum += 9.81 * now.positions[i].y() + 0.5 * now.velocities[i].squaredNorm();
+    return sum;
+  };
+  const double before = energy();
+  const FrameReport& report = solver->advance();
+  EXPECT_FALSE(report.time_step_limited);
+  EXPECT_EQ(report.lost, 0);
+  ASSERT_TRUE(all_finite(solver->state().particles));
+  EXPECT_LE(energy(), 1.15 * before);
+  expect_inside(scene, solver->state().particles);
+}
+
+// As close to a teleport as a scene may ask for: 0.17 m and back within 10 ms each, at up to 1e4 m/s^2. Everyone stays
+// inside, and the water is still there afterwards.
+TEST_P(HardCases, AContainerThatJumpsKeepsItsWater) {
+  Scene scene = filled_tank(1);
+  scene.container.motions.push_back({0.005, 0.01, Eigen::Vector3d(0.17, 0, 0), std::nullopt});
+  scene.container.motions.push_back({0.035, 0.01, Eigen::Vector3d(-0.17, 0, 0), std::nullopt});
+  const auto solver = make(scene);
+  for (int frame = 0; frame < 4; ++frame) {
+    const FrameReport& report = solver->advance();
+    ASSERT_FALSE(report.time_step_limited) << "frame " << frame;
+    ASSERT_EQ(report.lost, 0) << "frame " << frame;
+    ASSERT_EQ(report.active, 16 * 8);
+    expect_inside(scene, solver->state().particles);
+  }
+}
+
 }  // namespace
 }  // namespace squall::test
