@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -78,9 +79,9 @@ struct Scene {
     std::int64_t max_particles = 0;
   };
   struct Gauge {
-    std::string name;
-    Eigen::Vector3d position_m;
-    std::string kind;  ///< "level", "pressure" or "velocity"
+    std::string name;                                      ///< unique; a column of gauges.csv
+    Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< at the start: gauges move with the container
+    std::string kind;                                      ///< "level", "pressure" or "velocity"
   };
 
   std::string name;  ///< the file's stem
@@ -113,6 +114,12 @@ Scene load_scene(const std::string& path);
 
 /// The same from text; `path` names it in messages and is what particle files are relative to.
 Scene parse_scene(const std::string& text, const std::string& path);
+
+/// Gives the text of a file; throws InputError if it cannot.
+using FileReader = std::function<std::string(const std::string& path)>;
+
+/// The same, with particle files from `read`: for scenes that lie in no folder.
+Scene parse_scene(const std::string& text, const std::string& path, const FileReader& read);
 
 /// The whole scene, defaults included, as a scene file that load_scene reads back to an equal scene.
 std::string print_scene(const Scene& scene);

@@ -63,14 +63,14 @@ class SceneReader {
   const Places& places() const { return places_; }
 
   /// Particle files lie relative to the scene file.
-  void read_particle_files(Scene& scene) const {
+  void read_particle_files(Scene& scene, const FileReader& read_file) const {
     const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
     for (std::size_t i = 0; i < scene.particle_files.size(); ++i) {
       Scene::ParticleFile& particle_file = scene.particle_files[i];
       const std::string path = (folder / particle_file.file).string();
       std::string text;
       try {
-        text = read_text_file(path);
+        text = read_file(path);
       } catch (const InputError& error) {
         throw InputError(places_(SectionName{"particles", i + 1}, "file") + error.what());
       }
@@ -132,10 +132,12 @@ class SceneReader {
 
 }  // namespace
 
-Scene parse_scene(const std::string& text, const std::string& path) {
+Scene parse_scene(const std::string& text, const std::string& path) { return parse_scene(text, path, read_text_file); }
+
+Scene parse_scene(const std::string& text, const std::string& path, const FileReader& read) {
   SceneReader reader(text, path);
   Scene scene = reader.read();
-  reader.read_particle_files(scene);
+  reader.read_particle_files(scene, read);
   scene_keys::check_scene(scene, reader.places());
   return scene;
 }

@@ -51,6 +51,7 @@ class Checker {
     check_blocks_apart();
     for_each("particles", scene_.particle_files, &Checker::check_particles);
     for_each("rain", scene_.rains, &Checker::check_rain);
+    for_each("gauge", scene_.gauges, &Checker::check_gauge);
     check_count();
   }
 
@@ -68,7 +69,6 @@ class Checker {
   void check_version() const {
     if (scene_.fluid.surface_tension_n_m)
       fail({"fluid"}, "surface_tension_n_m", "surface tension is not in this version; remove surface_tension_n_m");
-    if (!scene_.gauges.empty()) fail({"gauge", 1}, "", "[[gauge]] is not in this version; remove it");
   }
 
   void check_time() const {
@@ -237,6 +237,42 @@ class Checker {
                  number_text(rain.area_min_m[axis]) + " to " + number_text(rain.area_max_m[axis]) + "; allowed is " +
                  number_text(low) + " to " + number_text(high));
     }
+  }
+
+  void check_gauge(const SectionName& section, const Scene::Gauge& gauge) const {
+    check_gauge_name(section, gauge);
+    if (gauge.kind != "level" && gauge.kind != "pressure" && gauge.kind != "velocity")
+      fail(section, "kind",
+           "kind = '" + gauge.kind + "' in " + section.text() + " is unknown; there are level, pressure, velocity");
+    const Eigen::Vector3d& at = gauge.position_m;
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(at[axis] >= floor_[axis] - touch_) || !(at[axis] <= ceiling_[axis] + touch_))
+        fail(section, "position_m",
+             "gauge '" + gauge.name + "' at " + vector_text(at) + " lies outside the container (" +
+                 extent_text(floor_, scene_.container.max_m) + ") in " + k_axes[axis]);
+    if (gauge.kind == "level") return;
+    for (std::size_t b = 0; b < scene_.boxes.size(); ++b)
+      if (!scene_.boxes[b].until_s && ((at - scene_.boxes[b].min_m).array() > touch_).all() &&
+          ((scene_.boxes[b].max_m - at).array() > touch_).all())
+        fail(section, "position_m",
+             "gauge '" + gauge.name + "' at " + vector_text(at) + " lies inside box " + std::to_string(b + 1) +
+                 ", where no water comes; move it to a face");
+  }
+
+  /// A name is a column of gauges.csv, and a quantity beside those that every scene has.
+  void check_gauge_name(const SectionName& section, const Scene::Gauge& gauge) const {
+    for (const char c : gauge.name)
+      if (static_cast<unsigned char>(c) < 0x20 || c == ',' || c == '"')
+        fail(section, "name",
+             "the name of " + section.text() +
+                 " holds a comma, a quote or a control character; it is a column of a "
+                 "CSV file");
+    for (std::size_t i = 0; i + 1 < section.index; ++i)
+      if (scene_.gauges[i].name == gauge.name)
+        fail(section, "name",
+             "gauges " + std::to_string(i + 1) + " and " + std::to_string(section.index) + " are both called '" +
+                 gauge.name + "'; give each its own name");
+    if (gauge.name == "time_s") fail(section, "name", "a gauge cannot be called time_s; that is the first column");
   }
 
   void check_count() const {

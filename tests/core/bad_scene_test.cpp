@@ -234,8 +234,22 @@ const BadScene k_together[] = {
 
 const BadScene k_not_in_this_version[] = {
     {"surface_tension", "0.1", "0.1\nsurface_tension_n_m = 0.07", "7:23: surface tension is not in this version"},
-    {"gauge", "", "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 0.5]\nkind = 'level'\n",
-     "31:1: [[gauge]] is not in this version; remove it"},
+};
+
+const BadScene k_gauges[] = {
+    {"kind", "", "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 0.5]\nkind = 'depth'\n",
+     "34:8: kind = 'depth' in [[gauge]] 1 is unknown; there are level, pressure, velocity"},
+    {"no_name", "", "[[gauge]]\nposition_m = [1, 1, 0.5]\nkind = 'level'\n", "31:1: key name is missing in [[gauge]]"},
+    {"name_with_comma", "", "[[gauge]]\nname = 'a,b'\nposition_m = [1, 1, 0.5]\nkind = 'level'\n",
+     "32:8: the name of [[gauge]] 1 holds a comma"},
+    {"name_of_time", "", "[[gauge]]\nname = 'time_s'\nposition_m = [1, 1, 0.5]\nkind = 'level'\n",
+     "32:8: a gauge cannot be called time_s"},
+    {"same_name", "",
+     "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 0.5]\nkind = 'level'\n"
+     "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 0.5]\nkind = 'pressure'\n",
+     "36:8: gauges 1 and 2 are both called 'g'"},
+    {"outside", "", "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 1.5]\nkind = 'velocity'\n",
+     "33:14: gauge 'g' at (1, 1, 1.5) lies outside the container ("},
 };
 
 const BadScene k_syntax[] = {
@@ -255,6 +269,7 @@ INSTANTIATE_TEST_SUITE_P(Missing, BadSceneTest, testing::ValuesIn(k_missing), na
 INSTANTIATE_TEST_SUITE_P(Geometry, BadSceneTest, testing::ValuesIn(k_geometry), name_of);
 INSTANTIATE_TEST_SUITE_P(Together, BadSceneTest, testing::ValuesIn(k_together), name_of);
 INSTANTIATE_TEST_SUITE_P(NotInThisVersion, BadSceneTest, testing::ValuesIn(k_not_in_this_version), name_of);
+INSTANTIATE_TEST_SUITE_P(Gauge, BadSceneTest, testing::ValuesIn(k_gauges), name_of);
 INSTANTIATE_TEST_SUITE_P(Syntax, BadSceneTest, testing::ValuesIn(k_syntax), name_of);
 
 TEST(GoodScene, ThatTheBadOnesDifferFromIsAccepted) { EXPECT_NO_THROW(parse_scene(k_good_scene, "good.toml")); }
