@@ -37,7 +37,8 @@ std::uint64_t frame_of(const std::string& frame_file) {
 }  // namespace
 
 std::vector<std::filesystem::path> OutputFolder::own_files(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files{folder / "scene.toml", folder / "frames.csv", folder / "series.csv"};
+  std::vector<std::filesystem::path> files{folder / "scene.toml", folder / "frames.csv", folder / "series.csv",
+                                           folder / "gauges.csv"};
   std::error_code error;
   std::filesystem::directory_iterator entry(folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
@@ -60,7 +61,9 @@ OutputFolder::OutputFolder(const std::string& path, const Workload& workload, st
   std::ostringstream header;
   harness::write_frames_header(header);
   frames_ = open_rows("frames.csv", header.str());
-  if (earlier_frames_ > 0) open_series();  // rows that come after must not outlive a run that makes none
+  if (earlier_frames_ == 0) return;
+  open_series();  // rows that come after must not outlive a run that makes none
+  if (!workload.scene.gauges.empty()) open_gauges(workload.scene, workload.pressure);
 }
 
 void OutputFolder::check_earlier_scene(const Workload& workload) const {
@@ -78,7 +81,7 @@ void OutputFolder::remove_old_files() const {
   std::error_code error;
   for (const auto& file : own_files(path_)) {
     const std::string name = file.filename().string();
-    const bool is_rows = name == "frames.csv" || name == "series.csv";
+    const bool is_rows = name == "frames.csv" || name == "series.csv" || name == "gauges.csv";
     const bool is_earlier = is_frame_file(name) ? frame_of(name) < earlier_frames_ : is_rows && earlier_frames_ > 0;
     if (!is_earlier) std::filesystem::remove(file, error);
   }
@@ -101,6 +104,13 @@ void OutputFolder::open_series() {
   series_ = open_rows("series.csv", header.str());
 }
 
+void OutputFolder::open_gauges(const Scene& scene, Pressure pressure) {
+  gauges_.emplace(scene, pressure);
+  std::ostringstream header;
+  harness::write_gauges_header(header, *gauges_);
+  gauges_file_ = open_rows("gauges.csv", header.str());
+}
+
 std::ofstream OutputFolder::open(const std::string& name) const {
   std::ofstream file(path_ / name);
   check(file, path_ / name);
@@ -116,8 +126,15 @@ void OutputFolder::after_frame(const harness::Run& run, int save_every) {
   const auto& frame = run.frames().back();
   add_frame(run.plan().label, frame);
   if (!series_.is_open()) open_series();
+  add_gauges(run, frame.time_s);
   harness::write_observation(series_, harness::observe(run.scene(), run.state().particles, frame.time_s));
   if (save_every > 0 && run.state().clock.frame % static_cast<std::uint64_t>(save_every) == 0) save_particles(run);
+}
+
+void OutputFolder::add_gauges(const harness::Run& run, double time_s) {
+  if (run.scene().gauges.empty()) return;
+  if (!gauges_) open_gauges(run.scene(), run.plan().settings.pressure);
+  harness::write_gauges(gauges_file_, time_s, gauges_->read(run.state()));
 }
 
 void OutputFolder::add_frame(const std::string& label, const harness::FrameRecord& frame) {
@@ -143,6 +160,9 @@ void OutputFolder::finish() {
   if (!series_.is_open()) return;
   series_.flush();
   check(series_, path_ / "series.csv");
+  if (!gauges_file_.is_open()) return;
+  gauges_file_.flush();
+  check(gauges_file_, path_ / "gauges.csv");
 }
 
 }  // namespace squall::app

@@ -3,16 +3,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/workload.h"
+#include "harness/gauges.h"
 #include "harness/run.h"
 
 namespace squall::app {
 
-/// The folder of --out: scene.toml, frames.csv, series.csv and, with --save-every, frame_000000.csv. Made if missing;
-/// files of these names from an earlier run are removed. Throws InputError for what cannot be written.
+/// The folder of --out: scene.toml, frames.csv, series.csv, gauges.csv where the scene has gauges and, with
+/// --save-every, frame_000000.csv. Made if missing; files of these names from an earlier run are removed. Throws
+/// InputError for what cannot be written.
 class OutputFolder {
  public:
   /// A run that goes on from `earlier_frames` frames keeps what they left here, and throws InputError if that is of
@@ -34,15 +37,18 @@ class OutputFolder {
   void check_earlier_scene(const Workload& workload) const;
   void remove_old_files() const;
   void open_series();
+  void open_gauges(const Scene& scene, Pressure pressure);
   std::ofstream open(const std::string& name) const;
   std::ofstream open_rows(const std::string& name, const std::string& header) const;
   static void check(const std::ofstream& file, const std::filesystem::path& path);
+  void add_gauges(const harness::Run& run, double time_s);
   void save_particles(const harness::Run& run) const;
 
   std::filesystem::path path_;
   std::uint64_t earlier_frames_ = 0;
   double earlier_s_ = 0.0;  ///< what they simulated
-  std::ofstream frames_, series_;
+  std::ofstream frames_, series_, gauges_file_;
+  std::optional<harness::Gauges> gauges_;
 };
 
 }  // namespace squall::app

@@ -5,27 +5,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/frame_plan.h"
 #include "grid.h"
+#include "harness/present.h"
 #include "harness/statistics.h"
 
 namespace squall::harness {
 
 namespace {
-
-/// The groups that are still held at a time: make_held_groups lists those held longest first.
-std::vector<HeldGroup> still_held(const Scene& scene, double time_s) {
-  auto groups = make_held_groups(scene);
-  const auto held = std::count_if(scene.blocks.begin(), scene.blocks.end(),
-                                  [&](const auto& block) { return block.held_until_s.value_or(0.0) > time_s; });
-  groups.resize(std::min(groups.size(), static_cast<std::size_t>(held)));
-  return groups;
-}
-
-bool is_held(const std::vector<HeldGroup>& groups, std::uint32_t id) {
-  return std::any_of(groups.begin(), groups.end(),
-                     [&](const HeldGroup& group) { return id >= group.first_id && id < group.end_id; });
-}
 
 double energy_of(const Scene& scene, const Eigen::Vector3d& x, const Eigen::Vector3d& v) {
   return scene.particle_mass() * (0.5 * v.squaredNorm() - scene.gravity_m_s2.dot(x));
@@ -58,7 +44,7 @@ double height_of(const std::vector<Eigen::Vector3d>& free, double spacing, doubl
 Observation observe(const Scene& scene, const Particles& particles, double time_s) {
   Observation result;
   result.time_s = time_s;
-  const auto held = still_held(scene, time_s);
+  const Present present(scene, time_s);
   std::vector<Eigen::Vector3d> free;
   double count = 0.0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -69,7 +55,7 @@ Observation observe(const Scene& scene, const Particles& particles, double time_
     result.centre_m += x;
     result.kinetic_j += energy_of(scene, Eigen::Vector3d::Zero(), v);
     result.potential_j += energy_of(scene, x, Eigen::Vector3d::Zero());
-    if (!is_held(held, particles.ids[i])) free.push_back(x);
+    if (!present.is_held(particles.ids[i])) free.push_back(x);
   }
   if (count > 0.0) result.centre_m /= count;
   const double dx = scene.fluid.spacing_m;
