@@ -73,6 +73,7 @@ std::string escape_markup(const std::string& text) {
 
 std::string readable_number(double value) {
   constexpr double k_whole_from = 100.0;
+  value += 0.0;  // -0 becomes 0
   if (!std::isfinite(value) || std::abs(value) < k_whole_from) return fmt::format("{:.3g}", value);
   std::string digits = fmt::format("{:.0f}", value);
   const std::size_t first = digits.front() == '-' ? 1 : 0;

@@ -1,0 +1,101 @@
+#include "harness/validation/case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/errors.h"
+#include "core/nearest_name.h"
+#include "harness/gauges.h"
+#include "harness/validation/observer.h"
+
+namespace squall::harness {
+
+namespace {
+
+constexpr int k_most_samples = 64;
+constexpr double k_most_samples_hz = 1000.0;  ///< frames of a scene may be no shorter
+constexpr int k_samples_for_pressure = 8;
+
+std::string text_of_file(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw InputError(path + ": cannot be read: it is a folder");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path + ": cannot be read; check its name and its rights");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
+}
+
+}  // namespace
+
+const char* to_string(Measure measure) {
+  switch (measure) {
+    case Measure::max:
+      return "max";
+    case Measure::rms:
+      return "rms";
+    case Measure::mean:
+      return "mean";
+    case Measure::slope:
+      return "slope";
+    case Measure::line:
+      return "line";
+    case Measure::period:
+      return "period";
+    case Measure::below:
+      return "below";
+    case Measure::above:
+      return "above";
+  }
+  return "";
+}
+
+int most_samples(const Scene& scene) {
+  return std::clamp(static_cast<int>(k_most_samples_hz / scene.time.frame_rate_hz), 1, k_most_samples);
+}
+
+void set_defaults(Case& result) {
+  const Scene& scene = result.scene;
+  result.duration_s = scene.time.duration_s;
+  const bool has_pressure = Gauges(scene, Pressure::wcsph).has_pressure();
+  result.samples_per_frame = has_pressure ? std::min(most_samples(scene), k_samples_for_pressure) : 1;
+  result.solvers = {Pressure::dfsph, Pressure::wcsph, Pressure::mueller};
+  if (scene.solver.xsph > 0.0) result.solvers = {Pressure::dfsph};
+  if (scene.solver.pressure) result.solvers = {*scene.solver.pressure};
+}
+
+Case case_from_table(const std::string& scene_path, const std::string& table_path, double tolerance) {
+  Case result;
+  result.scene = load_scene(scene_path);
+  result.name = result.scene.name;
+  result.title = "scene " + result.name + " against a table";
+  result.source = table_path;
+  set_defaults(result);
+  const auto names = quantity_names(result.scene);
+  for (const auto& [name, points] : parse_expected_csv(text_of_file(table_path), table_path)) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(fmt::format("{}: column '{}' is neither a gauge of {} nor a quantity; did you mean '{}'?",
+                                   table_path, name, scene_path, nearest_name(name, names)));
+    Check check;
+    check.name = check.quantity = name;
+    check.source = table_path;
+    check.expected.points = points;
+    check.measure = Measure::rms;
+    double largest = 0.0;
+    for (const auto& point : points) largest = std::max(largest, std::abs(point.value));
+    if (largest > 0.0) check.scale = largest;
+    check.tolerance = tolerance;
+    check.tolerance_why = "as given, of the column's largest value";
+    result.checks.push_back(std::move(check));
+  }
+  return result;
+}
+
+Case load_case(const std::string& path) { return parse_case(text_of_file(path), path, text_of_file); }
+
+}  // namespace squall::harness

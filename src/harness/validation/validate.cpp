@@ -1,0 +1,92 @@
+#include "harness/validation/validate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/validation/observer.h"
+
+namespace squall::harness {
+
+namespace {
+
+Verdict verdict_of(const Check& check, const CaseRun& run) {
+  Verdict verdict;
+  for (const auto& failure : check.fails)
+    if (failure.pressure == run.plan.settings.pressure) {
+      verdict.expected_to_pass = false;
+      verdict.reason = failure.reason;
+    }
+  verdict.finding = judge(check, run.scene, run.series);
+  if (run.error.empty()) return verdict;
+  verdict.finding.passed = false;
+  verdict.finding.problem = run.error;
+  return verdict;
+}
+
+int frames_of(const Case& what, const Scene& scene) {
+  constexpr double k_rounding = 1e-9;
+  const double frames = std::ceil(what.duration_s * scene.time.frame_rate_hz - k_rounding);
+  if (!(frames <= 1e7))
+    throw InputError("case " + what.name + " asks for more than 10,000,000 samples; lower duration_s");
+  return std::max(1, static_cast<int>(frames));
+}
+
+void summarise(const Run& run, CaseRun& result) {
+  const Row row = run.row();
+  result.solver = run.solver();
+  result.error = row.error;
+  result.device_failed = row.device_failed;
+  result.particles = row.particles;
+  result.simulated_s = row.simulated_s;
+  result.wall_s = row.wall_s;
+  result.iterations_mean = row.iterations_mean;
+  result.steps = row.steps;
+  result.clamps = row.clamps;
+}
+
+}  // namespace
+
+Scene scene_of(const Case& what, const std::optional<std::int64_t>& particles) {
+  Scene scene = what.scene;
+  if (particles) scale_to_particles(scene, *particles);
+  scene.time.frame_rate_hz *= what.samples_per_frame;
+  validate(scene);
+  return scene;
+}
+
+CaseRun run_case(const Case& what, const Scene& scene, RunPlan plan, const SceneSolverFactory& make,
+                 const CaseProgress& progress) {
+  CaseRun result;
+  plan.warm_up_frames = 0;
+  plan.frames = frames_of(what, scene);
+  plan.settings.readback = Readback::none;
+  result.plan = plan;
+  result.scene = scene;
+  Run run(make(plan, scene), plan);
+  Observer observer(scene, plan.settings.pressure, what.samples_per_frame);
+  observer.add(run.state(), nullptr);
+  while (!run.done()) {
+    run.step();
+    if (!run.error().empty()) break;
+    observer.add(run.state(), &run.frames().back().report);
+    if (progress && !progress(static_cast<double>(run.steps_done()) / run.steps_planned())) {
+      result.interrupted = !run.done();
+      break;
+    }
+  }
+  summarise(run, result);
+  result.series = observer.series();
+  for (const auto& check : what.checks) result.verdicts.push_back(verdict_of(check, result));
+  return result;
+}
+
+bool all_as_expected(const std::vector<CaseResult>& results) {
+  for (const auto& result : results)
+    for (const auto& run : result.runs)
+      if (!run.interrupted && !std::all_of(run.verdicts.begin(), run.verdicts.end(),
+                                           [](const Verdict& verdict) { return verdict.as_expected(); }))
+        return false;
+  return true;
+}
+
+}  // namespace squall::harness
