@@ -9,5 +9,6 @@ int command_devices(const Options& options);
 int command_run(const Options& options);
 int command_compare(const Options& options);
 int command_sweep(const Options& options);
+int command_validate(const Options& options);
 
 }  // namespace squall::app

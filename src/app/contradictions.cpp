@@ -14,6 +14,7 @@ namespace {
 std::vector<std::string> backends_of(const Options& options) {
   if (!options.backends.empty()) return options.backends;
   if (options.command == Command::compare || options.command == Command::sweep) return {"omp", "opencl"};
+  if (options.command == Command::validate && options.device.empty()) return {"omp", "opencl", "reference"};
   return {options.device.empty() ? "omp" : "opencl"};
 }
 

@@ -22,11 +22,11 @@ namespace {
 
 /// The command line as texts, before values are understood.
 struct Raw {
-  std::vector<std::string> backends, readbacks;
+  std::vector<std::string> backends, readbacks, pressures;
   std::string simd, precision, pressure, format = "squall";
 };
 
-constexpr const char* k_later_commands[] = {"agree", "study", "stress", "cost", "validate", "view"};
+constexpr const char* k_later_commands[] = {"agree", "study", "stress", "cost", "view"};
 constexpr const char* k_later_options[] = {"--fast-math", "--tolerance", "--max-error"};
 constexpr const char* k_checkpoint_options[] = {"--checkpoint", "--checkpoint-every", "--restart"};
 
@@ -46,6 +46,7 @@ CLI::Option* add(CLI::App& command, const std::string& name, Value& value, const
 
 void add_later_options(CLI::App& command) {
   for (const char* name : k_later_options) {
+    if (command.get_option_no_throw(name) != nullptr) continue;  // this command has it
     // An empty group hides the option from --help.
     command.add_option(name)->expected(0, 1)->group("")->envname(variable_of(name));
   }
@@ -64,7 +65,8 @@ void refuse_later_checkpoints(const CLI::App& command) {
 
 void refuse_later_options(const CLI::App& command) {
   for (const char* name : k_later_options)
-    if (command.get_option(name)->count() > 0) throw UsageError(fmt::format("{} is not in this version", name));
+    if (const auto* option = command.get_option(name); option->get_group().empty() && option->count() > 0)
+      throw UsageError(fmt::format("{} is not in this version", name));
 }
 
 void add_output_options(CLI::App& command, Options& options) {
@@ -206,6 +208,45 @@ CLI::App* add_sweep(CLI::App& app, Options& options, Raw& raw) {
   return sweep;
 }
 
+CLI::App* add_validate(CLI::App& app, Options& options, Raw& raw) {
+  CLI::App* validate = app.add_subcommand("validate", "Physics against analytic solutions and experiments");
+  validate
+      ->add_option("case", options.cases,
+                   "Case files (TOML), or names of cases that come with squall (all of these; see --list)")
+      ->type_name("CASE");
+  validate->add_flag("--list", options.list, "List the cases, quantities and formulas there are, and stop");
+  validate->add_flag("--quick", options.quick, "Coarser scenes, where the cases name some")->envname("SQUALL_QUICK");
+  add(*validate, "--expected", options.expected,
+      "The CASE is a scene; hold it against this CSV table: time_s, then a column per quantity or gauge")
+      ->type_name("FILE");
+  add(*validate, "--tolerance", options.tolerance,
+      "With --expected: largest rms error, as a share of a column's largest value")
+      ->check(positive())
+      ->type_name("F");
+  list(add(*validate, "--pressure", raw.pressures, "Only these solvers: mueller, wcsph, dfsph (all of a case)"),
+       "NAME[,NAME]");
+  list(add(*validate, "--backend", raw.backends,
+           "Each of these: omp, opencl, reference (the first that has the solver)"),
+       "NAME[,NAME]");
+  add(*validate, "--device", options.device, "OpenCL device: index or part of its name in `squall devices`")
+      ->type_name("DEVICE");
+  add(*validate, "--threads", options.threads, "Threads, or compute units of a CPU device; else all")
+      ->expected(1)
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  add_solver_options(*validate, raw);
+  add_particles(*validate, options);
+  add(*validate, "--dt-max", options.dt_max_s, "Longest sub-step [s]; else the scene's")
+      ->check(within(1e-7, 1.0))
+      ->type_name("S");
+  add(*validate, "--seed", options.seed, "Of the rain (1)")->check(unsigned_number())->type_name("N");
+  add(*validate, "--out", options.out, "Folder for report.html, plots (gnuplot), time series and validate.json")
+      ->type_name("DIR");
+  add_output_options(*validate, options);
+  add_later_options(*validate);
+  return validate;
+}
+
 bool on_command_line(int argc, char** argv, const std::string& name) {
   return std::any_of(argv, argv + argc,
                      [&](const std::string& text) { return text == name || text.rfind(name + "=", 0) == 0; });
@@ -233,6 +274,7 @@ std::vector<int> without_repeats(const std::vector<int>& values) {
 void understand(const Raw& raw, Options& options) {
   for (const auto& text : raw.backends) options.backends.push_back(parse_backend(text));
   options.threads = without_repeats(options.threads);
+  for (const auto& text : raw.pressures) options.pressures.push_back(parse_pressure(text));
   for (const auto& text : raw.readbacks) options.readbacks.push_back(parse_readback(text));
   if (!raw.simd.empty()) options.simd = parse_simd(raw.simd);
   if (!raw.precision.empty()) options.precision = parse_precision(raw.precision);
@@ -242,6 +284,10 @@ void understand(const Raw& raw, Options& options) {
   else if (raw.format != "squall")
     throw UsageError(fmt::format("--format '{}' is unknown; there are squall, google-benchmark", raw.format));
   if (options.format != Format::squall && options.json.empty()) options.json = "-";
+  if (options.expected.empty() == options.tolerance.has_value())
+    throw UsageError("--expected and --tolerance belong together: a table, and how far off the water may be");
+  if (!options.expected.empty() && options.cases.size() != 1)
+    throw UsageError("--expected holds one scene against a table; name one scene");
   if (options.trace == "-") throw UsageError("--trace writes to a file, not to stdout; give it a name");
   if (options.checkpoint == "-" || options.restart == "-")
     throw UsageError("--checkpoint and --restart take files, not stdout or stdin; give them names");
@@ -253,11 +299,12 @@ void understand(const Raw& raw, Options& options) {
 
 /// The parser would only say that a command is required.
 void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2) throw UsageError("a command is missing; there are devices, run, compare, sweep");
+  if (argc < 2) throw UsageError("a command is missing; there are devices, run, compare, sweep, validate");
   const std::string name = argv[1];
   const auto commands = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
   if (name.rfind('-', 0) != 0 && commands.empty())
-    throw UsageError(fmt::format("the command '{}' is unknown; there are devices, run, compare, sweep", name));
+    throw UsageError(
+        fmt::format("the command '{}' is unknown; there are devices, run, compare, sweep, validate", name));
 }
 
 /// The parser would read variables for the commands that are not carried out, too, into the same options.
@@ -285,6 +332,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
   CLI::App* run = add_run(app, options, raw);
   CLI::App* compare = add_compare(app, options, raw);
   CLI::App* sweep = add_sweep(app, options, raw);
+  CLI::App* validate = add_validate(app, options, raw);
   for (const char* name : k_later_commands)
     app.add_subcommand(name, "not in this version")->group("")->allow_extras()->set_help_flag();
   check_command(app, argc, argv);
@@ -298,8 +346,12 @@ std::optional<Options> parse_options(int argc, char** argv) {
   }
   for (const char* name : k_later_commands)
     if (app.got_subcommand(name)) throw UsageError(fmt::format("the command '{}' is not in this version", name));
-  options.command = *devices ? Command::devices : *run ? Command::run : *compare ? Command::compare : Command::sweep;
-  if (!*devices) refuse_later_options(*run ? *run : *compare ? *compare : *sweep);
+  options.command = *devices   ? Command::devices
+                    : *run     ? Command::run
+                    : *compare ? Command::compare
+                    : *sweep   ? Command::sweep
+                               : Command::validate;
+  if (!*devices) refuse_later_options(*run ? *run : *compare ? *compare : *sweep ? *sweep : *validate);
   for (const CLI::App* command : {compare, sweep})
     if (*command) refuse_later_checkpoints(*command);
   understand(raw, options);

@@ -10,19 +10,23 @@
 
 namespace squall::app {
 
-enum class Command { devices, run, compare, sweep };
+enum class Command { devices, run, compare, sweep, validate };
 enum class Format { squall, google_benchmark };
 
 /// The command line and SQUALL_* variables, checked. Empty or absent: not given.
 struct Options {
   Command command = Command::devices;
   std::string scene;
+  std::vector<std::string> cases;   ///< validate: files or names; empty: all that come with squall
+  std::string expected;             ///< validate: table for a scene; empty: none
+  std::optional<double> tolerance;  ///< validate: of that table
   std::vector<std::string> backends;
   std::string device;
   std::vector<int> threads;
   std::optional<Simd> simd;
   std::optional<Precision> precision;
   std::optional<Pressure> pressure;
+  std::vector<Pressure> pressures;  ///< validate: only these
   std::vector<Readback> readbacks;
   std::optional<std::int64_t> particles;
   std::vector<std::int64_t> sizes;  ///< sweep: its --particles
@@ -43,6 +47,8 @@ struct Options {
   Format format = Format::squall;
   bool quiet = false;
   bool print_scene = false;
+  bool quick = false;  ///< validate: coarser scenes
+  bool list = false;   ///< validate: says what there is
 
   bool json_alone() const { return json == "-"; }  ///< stdout holds the JSON and nothing else
 };

@@ -29,6 +29,11 @@ Plans plan_comparison(const Options& options, const Workload& workload, const st
 /// should suit it best, or what the options ask for; 30 frames unless they ask for others. Throws like plan_run.
 Plans plan_sweep(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends);
 
+/// The plans of `squall validate` for one pressure solver: the backends asked for, else the first of omp, opencl and
+/// reference that has it. What was asked for by name and does not have this solver is left out with its reason; a
+/// backend that cannot run at all throws DeviceError.
+Plans plan_validation(const Options& options, Pressure pressure, const std::vector<BackendInfo>& backends);
+
 /// The device that a plan runs on.
 const DeviceInfo& device_of(const harness::RunPlan& plan, const std::vector<BackendInfo>& backends);
 

@@ -14,7 +14,9 @@ namespace squall::app {
 Progress::Progress(bool quiet, std::string what)
     : shown_(!quiet && is_terminal(STDERR_FILENO)), what_(std::move(what)), start_(Clock::now()), last_(start_) {}
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
   if (shown_) std::fputs("\r\x1b[K", stderr);
 }
 

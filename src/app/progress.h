@@ -14,6 +14,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(int done, int total);
+  /// Takes the bar away until the next update, for other output.
+  void clear();
   /// For work that is not all frames alike: the share done in [0, 1], what is being done, seconds left.
   void update(double share, const std::string& doing, double left_s);
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "core/errors.h"
 #include "core/frame_plan.h"
 #include "grid.h"
 #include "harness/measures.h"
@@ -111,7 +112,12 @@ std::vector<std::string> quantity_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& quantity : quantities()) names.push_back(quantity.name);
   const Gauges gauges(scene, Pressure::wcsph);
-  for (const auto& column : gauges.columns()) names.push_back(column.name);
+  for (const auto& column : gauges.columns()) {
+    if (std::find(names.begin(), names.end(), column.name) != names.end())
+      throw InputError("a gauge of " + scene.name + " is called '" + column.name +
+                       "', as one of the quantities that every scene has; give it another name");
+    names.push_back(column.name);
+  }
   return names;
 }
 

@@ -25,7 +25,8 @@ struct Quantity {
 /// All of them; lengths are relative to the container's min corner and in its frame (docs/validation.md).
 const std::vector<Quantity>& quantities();
 
-/// Names that checks of a scene may use: quantities() and the columns of its gauges.
+/// Names that checks of a scene may use: quantities() and the columns of its gauges. Throws InputError for a gauge that
+/// is called like a quantity or a part of another gauge.
 std::vector<std::string> quantity_names(const Scene& scene);
 
 /// Collects a run into a time series, sample by sample: quantities() and the scene's gauges. Positions belong to the

@@ -73,7 +73,8 @@ std::vector<Series> expected_series(const CaseResult& result, std::size_t index)
   return all;
 }
 
-Series measured_series(const CaseRun& run, const Check& check, double from_s, double to_s) {
+/// With a fitted shift drawn where it is compared.
+Series measured_series(const CaseRun& run, const Check& check, const Finding& found, double from_s, double to_s) {
   static const std::pair<Pressure, const char*> k_colours[] = {
       {Pressure::dfsph, "#0072b2"}, {Pressure::wcsph, "#d55e00"}, {Pressure::mueller, "#009e73"}};
   Series series{run_name(run), {}, ""};
@@ -83,9 +84,11 @@ Series measured_series(const CaseRun& run, const Check& check, double from_s, do
   const Column* column = run.series.find(check.quantity);
   if (column == nullptr) return series;
   const std::size_t stride = 1 + column->value.size() / k_most_samples;
-  for (std::size_t i = 0; i < column->value.size(); i += stride)
-    if (std::isfinite(column->value[i]) && column->time_s[i] >= from_s && column->time_s[i] <= to_s)
-      series.samples.push_back({column->time_s[i], column->value[i], {}, {}, ""});
+  for (std::size_t i = 0; i < column->value.size(); i += stride) {
+    const double time = column->time_s[i] - found.shift_s.value_or(0.0);
+    if (std::isfinite(column->value[i]) && time >= from_s && time <= to_s)
+      series.samples.push_back({time, column->value[i], {}, {}, ""});
+  }
   return series;
 }
 
@@ -106,7 +109,8 @@ Plot check_plot(const CaseResult& result, std::size_t index) {
   const double half_frame = 0.5 / result.what.scene.time.frame_rate_hz;
   const double from_s = check.from_s ? *check.from_s - half_frame : -1e30;
   to_s = check.to_s ? std::min(to_s, *check.to_s + half_frame) : to_s;
-  for (const auto& run : result.runs) plot.series.push_back(measured_series(run, check, from_s, to_s));
+  for (const auto& run : result.runs)
+    plot.series.push_back(measured_series(run, check, run.verdicts[index].finding, from_s, to_s));
   return plot;
 }
 
@@ -116,8 +120,7 @@ std::string caption_of(const CaseResult& result, std::size_t index) {
                                  check.tolerance_why);
   for (const auto& run : result.runs)
     if (const auto& shift = run.verdicts[index].finding.shift_s)
-      text += fmt::format(" {}: {:+.4f} s later than expected is compared; the curve is drawn as measured.",
-                          run_name(run), *shift);
+      text += fmt::format(" {}: measured at t {:+.4f} s is drawn and compared at t.", run_name(run), *shift);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "backends.h"
+#include "core/errors.h"
 #include "core/frame_plan.h"
 #include "support/scenes.h"
 
@@ -102,6 +103,14 @@ TEST(Observer, KnowsTheContainersFrame) {
   scene.container.motions.push_back({0.0, 1.0, Eigen::Vector3d(0.3, 0.0, 0.0), {}});
   const TimeSeries series = observed(scene, Pressure::wcsph, 10);
   for (const double value : series.find("wall_force_x_n")->value) EXPECT_NEAR(value, 0.0, 1e-9);
+}
+
+TEST(QuantityNames, RefuseAGaugeCalledLikeAQuantity) {
+  Scene scene = small_tank(1);
+  scene.gauges.push_back({"p", {0.1, 0.0, 0.1}, "level"});
+  EXPECT_EQ(quantity_names(scene).back(), "p");
+  scene.gauges.push_back({"front_m", {0.1, 0.0, 0.1}, "level"});
+  EXPECT_THROW(quantity_names(scene), InputError);
 }
 
 TEST(Observer, AveragesPressuresOverSamples) {

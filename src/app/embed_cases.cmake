@@ -1,0 +1,18 @@
+# cmake -DCASE_DIR=<folder> -DOUTPUT=<file.cpp> -P embed_cases.cmake
+#
+# Writes a C++ file that holds the text of every file below the folder, so that `squall validate` reads nothing from the
+# source tree at run time.
+
+cmake_minimum_required(VERSION 3.25)
+
+file(GLOB_RECURSE files RELATIVE "${CASE_DIR}" "${CASE_DIR}/*.toml" "${CASE_DIR}/*.csv")
+list(SORT files)
+set(code "// Written by embed_cases.cmake.\n#include \"app/builtin_cases.h\"\n\n")
+string(APPEND code "namespace squall::app {\n\nconst std::map<std::string, std::string>& embedded_case_files() {\n")
+string(APPEND code "  static const std::map<std::string, std::string> files{\n")
+foreach(name IN LISTS files)
+  file(READ "${CASE_DIR}/${name}" text)
+  string(APPEND code "      {\"${name}\", R\"squall(${text})squall\"},\n")
+endforeach()
+string(APPEND code "  };\n  return files;\n}\n\n}  // namespace squall::app\n")
+file(WRITE "${OUTPUT}" "${code}")

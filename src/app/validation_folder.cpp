@@ -1,0 +1,49 @@
+#include "app/validation_folder.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "core/errors.h"
+#include "harness/report/gnuplot.h"
+#include "harness/validation/report.h"
+
+namespace squall::app {
+
+ValidationFolder::ValidationFolder(const std::string& path) : path_(path) {
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
+  write("validate.json", "");
+}
+
+void ValidationFolder::add(const harness::CaseResult& result) {
+  for (const auto& run : result.runs) {
+    std::ostringstream text;
+    std::vector<double> times;
+    if (const auto* column = run.series.find("x_cm_m")) times = column->time_s;
+    harness::write_series(text, run.series, times);
+    write(fmt::format("{}_{}_{}.csv", result.what.name, to_string(run.plan.settings.pressure), run.plan.backend),
+          text.str());
+  }
+  for (const auto& plot : harness::validation_plots(result)) {
+    pictures_.emplace_back(plot.name, harness::draw_svg(plot));
+    write(plot.name + ".svg", pictures_.back().second);
+  }
+}
+
+void ValidationFolder::finish(const harness::Context& context, const std::vector<harness::CaseResult>& results,
+                              const std::vector<std::string>& notes) {
+  write("validate.json", harness::json_text(harness::to_json(context, results, notes)));
+  write("report.html", harness::validation_html(context, results, pictures_, notes));
+}
+
+void ValidationFolder::write(const std::string& name, const std::string& text) const {
+  std::ofstream file(path_ / name);
+  file << text << std::flush;
+  if (!file)
+    throw InputError((path_ / name).string() + ": cannot write this file; check the folder's rights and free space");
+}
+
+}  // namespace squall::app

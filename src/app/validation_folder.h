@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/context.h"
+#include "harness/validation/validate.h"
+
+namespace squall::app {
+
+/// The folder of `validate --out`: report.html, validate.json, and per case a plot of each check and a CSV file of each
+/// run. Made if missing; files of these names are replaced. Throws InputError for what cannot be written.
+class ValidationFolder {
+ public:
+  explicit ValidationFolder(const std::string& path);
+
+  /// Writes the time series and the plots of a case. Throws DeviceError if gnuplot does not draw.
+  void add(const harness::CaseResult& result);
+  /// Writes validate.json and report.html.
+  void finish(const harness::Context& context, const std::vector<harness::CaseResult>& results,
+              const std::vector<std::string>& notes);
+
+ private:
+  void write(const std::string& name, const std::string& text) const;
+
+  std::filesystem::path path_;
+  std::vector<std::pair<std::string, std::string>> pictures_;
+};
+
+}  // namespace squall::app

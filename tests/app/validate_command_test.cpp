@@ -1,0 +1,138 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/program.h"
+
+namespace squall::app {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// A folder with a falling block of 27 particles, a pressure gauge on the floor, and files a test adds.
+class ValidateCommand : public testing::Test {
+ protected:
+  ValidateCommand() {
+    write("fall.toml",
+          "schema = 1\n[time]\nduration_s = 0.1\n[fluid]\nspacing_m = 0.1\n[container]\nmin_m = [0, 0, 0]\n"
+          "max_m = [1, 1, 1]\n[[block]]\nmin_m = [0.3, 0.6, 0.3]\nmax_m = [0.6, 0.9, 0.6]\n"
+          "[[gauge]]\nname = 'floor'\nposition_m = [0.5, 0, 0.5]\nkind = 'pressure'\n");
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  std::string path(const std::string& name) const { return folder_ / name; }
+
+  /// A case about that scene whose one check, of y_cm_m, is written out.
+  void write_case(const std::string& check) const {
+    write("case.toml",
+          "schema = 1\ntitle = 'fall'\nsource = 'Newton'\nscene = 'fall.toml'\nsolvers = ['wcsph', 'dfsph']\n"
+          "[[check]]\nquantity = 'y_cm_m'\ntolerance_why = 'a test'\n" +
+              check);
+  }
+  Outcome validate(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "validate");
+    return squall(arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ValidateCommand, PassesWhatFallsAsNewtonSays) {
+  write_case("formula = 'ballistic'\ntolerance = 1e-5\n");
+  const Outcome outcome = validate({path("case.toml"), "--json", path("r.json"), "--quiet"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("2 passed, 0 failed as expected, 0 unexpected"));
+  EXPECT_THAT(outcome.out, HasSubstr("Newton"));
+  const Json json = Json::parse(text_of(path("r.json")));
+  EXPECT_TRUE(json["as_expected"]);
+  const Json& check = json["cases"][0]["checks"][0];
+  EXPECT_EQ(check["unit"], "m");
+  ASSERT_EQ(check["results"].size(), 2u);
+  const Json& first = check["results"][0];
+  EXPECT_EQ(first["verdict"], "pass");
+  EXPECT_LT(first["error"], first["tolerance"]);
+  EXPECT_EQ(first["points"].size(), 49u);  // 0.1 s at 60 Hz and eight samples a frame, and the start
+}
+
+TEST_F(ValidateCommand, ExitsWith5OnAFailure) {
+  write_case("value = 0.75\ntolerance = 1e-5\n");
+  const Outcome outcome = validate({path("case.toml"), "--pressure", "wcsph"});
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_THAT(outcome.out, HasSubstr("FAILS"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 unexpected"));
+}
+
+TEST_F(ValidateCommand, ExitsWith0OnAnExpectedFailureAndPrintsItsReason) {
+  write_case("value = 0.75\ntolerance = 1e-5\n[[check.fails]]\nsolver = 'wcsph'\nreason = 'it falls'\n");
+  const Outcome outcome = validate({path("case.toml"), "--pressure", "wcsph"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("fails, as expected: it falls"));
+}
+
+TEST_F(ValidateCommand, ExitsWith5OnAnExpectedFailureThatPasses) {
+  write_case("formula = 'ballistic'\ntolerance = 1e-5\n[[check.fails]]\nsolver = 'wcsph'\nreason = 'it should not'\n");
+  const Outcome outcome = validate({path("case.toml"), "--pressure", "wcsph"});
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_THAT(outcome.out, HasSubstr("PASSES, unexpected"));
+}
+
+TEST_F(ValidateCommand, TakesASceneAndATable) {
+  write("table.csv", "time_s,y_cm_m,floor\n0,0.75,0\n0.1,0.70095,0\n");
+  const std::vector<std::string> given{path("fall.toml"), "--expected", path("table.csv"), "--pressure", "wcsph"};
+  auto arguments = given;
+  arguments.insert(arguments.end(), {"--tolerance", "1e-5"});
+  const Outcome outcome = validate(arguments);
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("2 passed"));
+  const Outcome without = validate(given);
+  EXPECT_EQ(without.code, 2);
+  EXPECT_THAT(without.err, HasSubstr("--expected and --tolerance belong together"));
+}
+
+TEST_F(ValidateCommand, WritesPlotsSeriesAndAPage) {
+  write_case("formula = 'ballistic'\ntolerance = 1e-5\n");
+  const Outcome outcome = validate({path("case.toml"), "--pressure", "wcsph", "--out", path("out"), "--quiet"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(text_of(path("out/case_wcsph_omp.csv")), HasSubstr("time_s,front_m"));
+  EXPECT_THAT(text_of(path("out/case_wcsph_omp.csv")), HasSubstr(",floor\n"));
+  EXPECT_THAT(text_of(path("out/case_y_cm_m.svg")), HasSubstr("<svg"));
+  EXPECT_THAT(text_of(path("out/report.html")), HasSubstr("Newton"));
+  EXPECT_TRUE(Json::parse(text_of(path("out/validate.json"))).contains("cases"));
+}
+
+TEST_F(ValidateCommand, ListsAndRunsWhatComesWithSquall) {
+  const Outcome list = validate({"--list"});
+  EXPECT_EQ(list.code, 0);
+  for (const char* name : {"dam_break", "free_fall", "hydrostatic", "sloshing", "x_cm_m", "ellipsoid"})
+    EXPECT_THAT(list.out, HasSubstr(name));
+  EXPECT_EQ(validate({"free_fall", "--quiet"}).code, 0);
+}
+
+TEST_F(ValidateCommand, SaysWhatItCannotDo) {
+  const Outcome name = validate({"dam_brek"});
+  EXPECT_EQ(name.code, 3);
+  EXPECT_THAT(name.err, HasSubstr("did you mean 'dam_break'?"));
+  EXPECT_EQ(validate({path("none.toml")}).code, 3);
+  const Outcome scene = validate({path("fall.toml")});
+  EXPECT_EQ(scene.code, 3);
+  EXPECT_THAT(scene.err, HasSubstr("this is a scene, not a case"));
+  write_case("formula = 'ballistic'\ntolerance = 1e-5\n");
+  EXPECT_EQ(validate({path("case.toml"), "--pressure", "mueller"}).code, 2);  // takes no part
+  EXPECT_EQ(validate({path("case.toml"), "--tolerance", "0.1"}).code, 2);
+  EXPECT_EQ(validate({path("case.toml"), "--frames", "3"}).code, 2);
+  EXPECT_EQ(validate({path("case.toml"), "--fast-math"}).code, 2);
+}
+
+TEST_F(ValidateCommand, RunWritesGauges) {
+  const Outcome outcome = squall({"run", path("fall.toml"), "--frames", "3", "--out", path("out"), "--quiet"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string text = text_of(path("out/gauges.csv"));
+  EXPECT_THAT(text, testing::StartsWith("time_s,floor\n"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
+}
+
+}  // namespace
+}  // namespace squall::app
