@@ -77,6 +77,7 @@ Case case_from_table(const std::string& scene_path, const std::string& table_pat
   result.source = table_path;
   set_defaults(result);
   const auto names = quantity_names(result.scene);
+  double latest = 1.0 / result.scene.time.frame_rate_hz;
   for (const auto& [name, points] : parse_expected_csv(text_of_file(table_path), table_path)) {
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw InputError(fmt::format("{}: column '{}' is neither a gauge of {} nor a quantity; did you mean '{}'?",
@@ -87,12 +88,16 @@ Case case_from_table(const std::string& scene_path, const std::string& table_pat
     check.expected.points = points;
     check.measure = Measure::rms;
     double largest = 0.0;
-    for (const auto& point : points) largest = std::max(largest, std::abs(point.value));
+    for (const auto& point : points) {
+      largest = std::max(largest, std::abs(point.value));
+      latest = std::max(latest, point.time_s);
+    }
     if (largest > 0.0) check.scale = largest;
     check.tolerance = tolerance;
     check.tolerance_why = "as given, of the column's largest value";
     result.checks.push_back(std::move(check));
   }
+  result.duration_s = latest;
   return result;
 }
 

@@ -79,7 +79,8 @@ Case parse_case(const std::string& text, const std::string& path, const FileRead
 Case load_case(const std::string& path);
 
 /// A case from a scene and a table of expected values, both files: a check per column, the rms difference over the
-/// column's largest value, which may be at most `tolerance`. Throws InputError like load_case().
+/// column's largest value, which may be at most `tolerance`. It runs as long as the table says. Throws InputError like
+/// load_case().
 Case case_from_table(const std::string& scene_path, const std::string& table_path, double tolerance);
 
 /// A table of expected values from CSV text: a header with time_s first and, for each quantity, a column of its name
