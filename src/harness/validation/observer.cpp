@@ -123,8 +123,9 @@ std::vector<std::string> quantity_names(const Scene& scene) {
 
 Observer::Observer(const Scene& scene, Pressure pressure, int samples_per_frame)
     : scene_(scene), gauges_(scene, pressure), samples_per_frame_(static_cast<std::size_t>(samples_per_frame)) {
-  for (const auto& quantity : quantities()) series_.columns.push_back({quantity.name, quantity.unit, {}, {}});
-  for (const auto& column : gauges_.columns()) series_.columns.push_back({column.name, column.unit, {}, {}});
+  for (const auto& quantity : quantities()) series_.columns.push_back({quantity.name, quantity.unit, {}, {}, false});
+  for (const auto& column : gauges_.columns())
+    series_.columns.push_back({column.name, column.unit, {}, {}, column.is_pressure});
 }
 
 void Observer::put(const std::string& name, double time_s, double value) {

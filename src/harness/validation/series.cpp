@@ -33,7 +33,8 @@ std::optional<double> value_at(const Column& column, double time_s) {
   const auto at = static_cast<std::size_t>(above - times.begin());
   const std::size_t right = std::clamp<std::size_t>(at, 1, times.size() - 1), left = right - 1;
   const double share = (time_s - times[left]) / (times[right] - times[left]);
-  const double value = column.value[left] + share * (column.value[right] - column.value[left]);
+  const double reach = column.is_mean ? std::clamp(share, 0.0, 1.0) : share;
+  const double value = column.value[left] + reach * (column.value[right] - column.value[left]);
   constexpr double k_rounding = 1e-6;
   if (share < -1.0 - k_rounding || share > 2.0 + k_rounding || !std::isfinite(value)) return std::nullopt;
   return value;

@@ -12,6 +12,7 @@ namespace squall::harness {
 struct Column {
   std::string name, unit;
   std::vector<double> time_s, value;
+  bool is_mean = false;  ///< over a span around its time; beyond the ends the outermost value stands
 
   void add(double time, double number) {
     time_s.push_back(time);
@@ -28,7 +29,8 @@ struct TimeSeries {
 };
 
 /// The value at a time [s]: on the straight line between the values around it, and up to one interval beyond the ends
-/// on that of the outermost two. Empty further outside, or where a value is missing.
+/// on that of the outermost two, or at the value there if it is a mean. Empty further outside, or where a value is
+/// missing.
 std::optional<double> value_at(const Column& column, double time_s);
 
 /// CSV: time_s and a column per quantity at the times [s] given; a cell without a value is empty.

@@ -14,7 +14,7 @@ namespace {
 template <class Function>
 TimeSeries series_of(Function f) {
   TimeSeries series;
-  series.columns.push_back({"x_cm_m", "m", {}, {}});
+  series.columns.push_back({"x_cm_m", "m", {}, {}, false});
   for (int i = 0; i <= 200; ++i) series.columns[0].add(0.01 * i, f(0.01 * i));
   return series;
 }
@@ -120,11 +120,14 @@ TEST(Judge, SaysWhatItCannotJudge) {
 }
 
 TEST(ValueAt, InterpolatesAndReachesOneIntervalBeyondTheEnds) {
-  Column column{"x", "m", {0.0, 1.0, 2.0}, {0.0, 10.0, std::nan("")}};
+  Column column{"x", "m", {0.0, 1.0, 2.0}, {0.0, 10.0, std::nan("")}, false};
   EXPECT_EQ(value_at(column, 0.25), 2.5);
   EXPECT_EQ(value_at(column, 1.0), 10.0);
   EXPECT_EQ(value_at(column, -0.5), -5.0);
   EXPECT_FALSE(value_at(column, -1.5));
+  column.is_mean = true;
+  EXPECT_EQ(value_at(column, -0.5), 0.0);
+  EXPECT_EQ(value_at(column, 0.5), 5.0);
   EXPECT_FALSE(value_at(column, 1.5));
   EXPECT_FALSE(value_at(Column{}, 0.0));
 }
