@@ -45,6 +45,19 @@ std::string readback_text(const harness::Row& row) {
   return text;
 }
 
+std::string iterations_text(const harness::Row& row) {
+  std::string text =
+      fmt::format("dfsph: iterations per sub-step, density mean {:.2f} (max {}), divergence mean {:.2f} (max {})",
+                  row.density_iterations_mean, row.density_iterations_max, row.divergence_iterations_mean,
+                  row.divergence_iterations_max);
+  if (row.light_pass_ns)
+    text +=
+        fmt::format("; {:.1f} light passes, {:.2f} ns per particle each", row.light_passes_mean, *row.light_pass_ns);
+  if (row.unconverged > 0)
+    text += fmt::format("; {} solves were cut short: raise max_iterations in [solver]", with_commas(row.unconverged));
+  return text;
+}
+
 }  // namespace
 
 std::string water_text(const harness::Row& row) {
@@ -53,6 +66,7 @@ std::string water_text(const harness::Row& row) {
                   100.0 * row.density_error_mean, 100.0 * row.density_error_max, row.neighbours_mean,
                   with_commas(row.clamps), row.lost_particles);
   if (row.energy_drift) text += fmt::format(", energy {:+.2f} %", 100.0 * *row.energy_drift);
+  if (row.plan.settings.pressure == Pressure::dfsph) text += "\n" + iterations_text(row);
   return text;
 }
 

@@ -22,6 +22,15 @@ inline std::int64_t convergence_limit(double tolerance, std::int64_t count) {
   return std::llrint(std::ldexp(tolerance, 32)) * count;
 }
 
+/// How much of each particle's over-density goes away in a sub-step: all of it, unless the mean is beyond what the
+/// sub-step may correct. `excess` is the sum of terms of density - 1 over `count` particles, `correction` that of
+/// Substep.
+template <class Real>
+Real correction_share(std::int64_t excess, Real correction, std::int64_t count) {
+  const std::int64_t allowed = convergence_term(correction) * count;
+  return excess <= allowed ? Real(1) : static_cast<Real>(allowed) / static_cast<Real>(excess);
+}
+
 /// How far iterations extrapolate: t/(t + 3) for the t-th since the start or since the error last grew (Nesterov 1983
 /// with the restart of O'Donoghue & Candes 2015, one iteration late so that a pass over particles can use it at once).
 class Momentum {

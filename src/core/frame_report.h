@@ -18,7 +18,11 @@ struct FrameReport {
   double dt_s = 0.0;
   std::int64_t density_iterations = 0;     ///< of dfsph, all sub-steps together; 0 for solvers without
   std::int64_t divergence_iterations = 0;  ///< likewise
+  int density_iterations_max = 0;          ///< of one sub-step
+  int divergence_iterations_max = 0;       ///< likewise
   int unconverged = 0;                     ///< solves of dfsph that max_iterations cut short
+  std::int64_t light_passes = 0;           ///< of dfsph over particles and neighbours, beside one heavy per sub-step
+  double light_passes_ms = 0.0;            ///< wall clock of them; 0 where a backend does not time them
   double iterations_mean = 0.0;            ///< both kinds, per sub-step
   double smoothing_viscosity = 0.0;        ///< m^2/s: what [solver] xsph amounts to
   double frame_ms = 0.0;     ///< from the call of advance until the data asked for can be read, queues finished

@@ -70,15 +70,13 @@ std::int64_t iterate(const Params<Scalar>& p, const Substep<Scalar>& substep, Sc
   return convergence_term(solve_error(lack, a.impulse, substep.dt, a.response, a.inverse_response));
 }
 
-/// How much of each particle's over-density goes away in this sub-step: all of it, unless the mean is beyond what the
-/// sub-step may correct.
+/// Sum of what is beyond rest density.
 template <class Scalar>
-Scalar correction_share(const Substep<Scalar>& substep, const SortedParticles<Scalar>& sorted) {
-  const int active = sorted.active();
+std::int64_t sum_of_excess(const SortedParticles<Scalar>& sorted) {
   std::int64_t sum = 0;
-  for (int i = 0; i < active; ++i) sum += convergence_term(sorted.particles[static_cast<std::size_t>(i)].density - 1);
-  const std::int64_t allowed = convergence_term(substep.correction) * active;
-  return sum <= allowed ? Scalar(1) : static_cast<Scalar>(allowed) / static_cast<Scalar>(sum);
+  for (int i = 0; i < sorted.active(); ++i)
+    sum += convergence_term(sorted.particles[static_cast<std::size_t>(i)].density - 1);
+  return sum;
 }
 
 template <class Scalar>
@@ -190,7 +188,7 @@ void make_incompressible(const Params<Scalar>& p, const Terms& terms, const Wall
   });
   cost.divergence_iterations +=
       solve(p, substep, {settings.divergence_tolerance, 1, settings.max_iterations}, sorted, cost);
-  const Scalar correction = correction_share(substep, sorted);
+  const Scalar correction = correction_share(sum_of_excess(sorted), substep.correction, active);
   each([&](auto& particle, int) {
     particle.room = density_room(particle.density, correction);
     const Scalar largest = p.largest_warm_impulse / substep.dt;

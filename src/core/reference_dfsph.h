@@ -16,7 +16,7 @@ struct SolveLimits {
 
 /// What solves took.
 struct SolveCost {
-  std::int64_t density_iterations = 0, divergence_iterations = 0;
+  int density_iterations = 0, divergence_iterations = 0;
   int unconverged = 0;  ///< solves that ended at SolveLimits::most
 };
 

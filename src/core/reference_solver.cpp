@@ -94,6 +94,8 @@ class ReferenceSolver final : public Solver {
     make_incompressible(p_, terms_, walls, substep, scene().solver, sorted_, cost);
     report.density_iterations += cost.density_iterations;
     report.divergence_iterations += cost.divergence_iterations;
+    report.density_iterations_max = std::max(report.density_iterations_max, cost.density_iterations);
+    report.divergence_iterations_max = std::max(report.divergence_iterations_max, cost.divergence_iterations);
     report.unconverged += cost.unconverged;
   }
 

@@ -163,6 +163,11 @@ void Solver::finish_report(const FramePlan& plan) {
   report_.readback_bytes = positions_.count * positions_.position_bytes();
   const double iterations = static_cast<double>(report_.density_iterations + report_.divergence_iterations);
   report_.iterations_mean = iterations / report_.substeps;
+  // Each iteration is two, but for the first half of the divergence solve, which rides on the heavy pass, and for its
+  // last push, which there is not; predict stands for the density solve's.
+  if (settings_.pressure == Pressure::dfsph)
+    report_.light_passes =
+        2 * (report_.density_iterations + report_.divergence_iterations - static_cast<std::int64_t>(report_.substeps));
   report_.smoothing_viscosity = smoothing_viscosity(scene_, settings_.pressure);
   report_.time_step_limited = plan.limited && plan.dt > time_step_limit(scene_, settings_.pressure, report_.max_speed);
   report_.container_displacement =

@@ -16,17 +16,21 @@ namespace squall::harness {
 
 void write_frames_header(std::ostream& out) {
   out << "run,frame,time_s,steps,dt_s,particles,frame_ms,compute_ms,readback_ms,upload_ms,readback_bytes_per_frame,"
-         "readback_copied_bytes_per_frame,readback_latency_frames,iterations_mean,neighbours_mean,density_error_mean,"
+         "readback_copied_bytes_per_frame,readback_latency_frames,iterations_mean,"
+         "density_iterations,density_iterations_max,divergence_iterations,divergence_iterations_max,unconverged,"
+         "light_passes,light_passes_ms,neighbours_mean,density_error_mean,"
          "density_error_max,max_speed_m_s,clamps,lost_particles,"
          "state_hash\n";
 }
 
 void write_frame(std::ostream& out, const std::string& run, const FrameRecord& frame) {
   const FrameReport& r = frame.report;
-  fmt::print(out, "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", run, r.frame, frame.time_s,
-             r.substeps, r.dt_s, r.particles, r.frame_ms, r.compute_ms, r.readback_ms, r.upload_ms, r.readback_bytes,
-             r.readback_copied_bytes, r.readback_latency_frames, r.iterations_mean, r.neighbours_mean,
-             r.density_error_mean, r.density_error_max, r.max_speed, r.clamps, r.lost, hash_text(frame.state_hash));
+  fmt::print(out, "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", run,
+             r.frame, frame.time_s, r.substeps, r.dt_s, r.particles, r.frame_ms, r.compute_ms, r.readback_ms,
+             r.upload_ms, r.readback_bytes, r.readback_copied_bytes, r.readback_latency_frames, r.iterations_mean,
+             r.density_iterations, r.density_iterations_max, r.divergence_iterations, r.divergence_iterations_max,
+             r.unconverged, r.light_passes, r.light_passes_ms, r.neighbours_mean, r.density_error_mean,
+             r.density_error_max, r.max_speed, r.clamps, r.lost, hash_text(frame.state_hash));
 }
 
 void write_series_header(std::ostream& out) {

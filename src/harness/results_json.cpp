@@ -60,9 +60,20 @@ void add_times(const Row& row, Json& json) {
   json["pairs_per_s"] = number(row.pairs_per_s);
 }
 
+/// Of dfsph alone.
+void add_iterations(const Row& row, Json& json) {
+  json["density_iterations"] = {{"mean", number(row.density_iterations_mean)}, {"max", row.density_iterations_max}};
+  json["divergence_iterations"] = {{"mean", number(row.divergence_iterations_mean)},
+                                   {"max", row.divergence_iterations_max}};
+  json["unconverged"] = row.unconverged;
+  json["light_passes_mean"] = number(row.light_passes_mean);
+  json["light_pass_ns"] = row.light_pass_ns ? number(*row.light_pass_ns) : Json(nullptr);
+}
+
 void add_water(const Row& row, Json& json) {
   json["neighbours_mean"] = number(row.neighbours_mean);
   json["iterations_mean"] = number(row.iterations_mean);
+  if (row.plan.settings.pressure == Pressure::dfsph) add_iterations(row, json);
   json["density_error_mean"] = number(row.density_error_mean);
   json["density_error_max"] = number(row.density_error_max);
   json["energy_drift"] = number(row.energy_drift);

@@ -48,7 +48,7 @@ void summarise_times(const std::vector<FrameRecord>& frames, Row& row) {
 
 /// Means over particles and frames; each frame counts with its active particles, speeds also with its sub-steps.
 void summarise_particles(const std::vector<FrameRecord>& frames, Row& row) {
-  double active = 0.0, particle_steps = 0.0, pairs = 0.0, neighbours = 0.0, density = 0.0, iterations = 0.0;
+  double active = 0.0, particle_steps = 0.0, pairs = 0.0, neighbours = 0.0, density = 0.0;
   for (const auto& record : frames) {
     const FrameReport& report = record.report;
     const auto count = static_cast<double>(report.active);
@@ -57,7 +57,6 @@ void summarise_particles(const std::vector<FrameRecord>& frames, Row& row) {
     pairs += count * report.substeps * report.neighbours_mean;
     neighbours += count * report.neighbours_mean;
     density += count * report.density_error_mean;
-    iterations += report.iterations_mean * report.substeps;
     row.density_error_max = std::max(row.density_error_max, report.density_error_max);
     row.clamps += report.clamps;
   }
@@ -66,7 +65,28 @@ void summarise_particles(const std::vector<FrameRecord>& frames, Row& row) {
   row.pairs_per_s = ratio(pairs, compute_s);
   row.neighbours_mean = ratio(neighbours, active);
   row.density_error_mean = ratio(density, active);
-  row.iterations_mean = ratio(iterations, static_cast<double>(row.steps));
+}
+
+/// What dfsph's solves took.
+void summarise_iterations(const std::vector<FrameRecord>& frames, Row& row) {
+  double density = 0.0, divergence = 0.0, passes = 0.0, particle_passes = 0.0, pass_ms = 0.0;
+  for (const auto& record : frames) {
+    const FrameReport& report = record.report;
+    density += static_cast<double>(report.density_iterations);
+    divergence += static_cast<double>(report.divergence_iterations);
+    passes += static_cast<double>(report.light_passes);
+    particle_passes += static_cast<double>(report.light_passes * report.active);
+    pass_ms += report.light_passes_ms;
+    row.density_iterations_max = std::max(row.density_iterations_max, report.density_iterations_max);
+    row.divergence_iterations_max = std::max(row.divergence_iterations_max, report.divergence_iterations_max);
+    row.unconverged += report.unconverged;
+  }
+  const auto steps = static_cast<double>(row.steps);
+  row.iterations_mean = ratio(density + divergence, steps);
+  row.density_iterations_mean = ratio(density, steps);
+  row.divergence_iterations_mean = ratio(divergence, steps);
+  row.light_passes_mean = ratio(passes, steps);
+  if (pass_ms > 0.0 && particle_passes > 0.0) row.light_pass_ns = 1e6 * pass_ms / particle_passes;
 }
 
 }  // namespace
@@ -86,6 +106,7 @@ void summarise(const std::vector<FrameRecord>& frames, double frame_duration_s, 
   for (const auto& record : frames) row.steps += record.report.substeps;
   summarise_times(frames, row);
   summarise_particles(frames, row);
+  summarise_iterations(frames, row);
 }
 
 }  // namespace squall::harness

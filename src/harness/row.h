@@ -73,6 +73,11 @@ struct Row {
   double pairs_per_s = 0.0;
   double neighbours_mean = 0.0;
   double iterations_mean = 0.0;
+  double density_iterations_mean = 0.0, divergence_iterations_mean = 0.0;  ///< of dfsph, per sub-step
+  int density_iterations_max = 0, divergence_iterations_max = 0;
+  std::int64_t unconverged = 0;         ///< solves that max_iterations cut short
+  double light_passes_mean = 0.0;       ///< of dfsph, per sub-step
+  std::optional<double> light_pass_ns;  ///< wall clock per particle and light pass, where they are timed
   double density_error_mean = 0.0;
   double density_error_max = 0.0;
   std::optional<double> energy_drift;  ///< (E - E_in)/|E_in|; empty if there is no energy to compare with

@@ -70,6 +70,25 @@ TEST(Json, HasTheNamesOfTheResultFormat) {
   EXPECT_EQ(run["state_hash"].get<std::string>().size(), 16u);
 }
 
+TEST(Json, OfDfsphTellsWhatSolvesTook) {
+  Row row = fake_row();
+  EXPECT_FALSE(to_json(row).contains("density_iterations"));
+  row.plan.settings.pressure = Pressure::dfsph;
+  row.density_iterations_mean = 3.5;
+  row.density_iterations_max = 9;
+  row.divergence_iterations_max = 2;
+  row.unconverged = 4;
+  row.light_passes_mean = 5.25;
+  const Json untimed = to_json(row);
+  EXPECT_EQ(untimed["density_iterations"], (Json{{"mean", 3.5}, {"max", 9}}));
+  EXPECT_EQ(untimed["divergence_iterations"]["max"], 2);
+  EXPECT_EQ(untimed["unconverged"], 4);
+  EXPECT_EQ(untimed["light_passes_mean"], 5.25);
+  EXPECT_TRUE(untimed["light_pass_ns"].is_null());
+  row.light_pass_ns = 7.5;
+  EXPECT_EQ(to_json(row)["light_pass_ns"], 7.5);
+}
+
 TEST(Json, OfAnErrorRowHasNoSpeed) {
   Row row = fake_row();
   row.error = "3 of 64 particles are lost";

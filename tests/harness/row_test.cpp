@@ -42,6 +42,34 @@ TEST(Row, FollowsFromItsFrames) {
   EXPECT_EQ(row.clamps, 6);
 }
 
+TEST(Row, TellsWhatSolvesTook) {
+  FrameRecord first = frame(10.0, 1.0, 4, 100, 30.0), second = frame(10.0, 1.0, 6, 300, 30.0);
+  for (auto* record : {&first, &second}) {
+    record->report.density_iterations = 30;
+    record->report.divergence_iterations = 10;
+    record->report.light_passes = 60;
+  }
+  first.report.density_iterations_max = 9;
+  second.report.density_iterations_max = 5;
+  second.report.divergence_iterations_max = 3;
+  first.report.unconverged = 1;
+  second.report.unconverged = 2;
+  Row untimed, timed;
+  summarise({first, second}, 0.025, untimed);
+  EXPECT_DOUBLE_EQ(untimed.iterations_mean, 8.0);
+  EXPECT_DOUBLE_EQ(untimed.density_iterations_mean, 6.0);
+  EXPECT_DOUBLE_EQ(untimed.divergence_iterations_mean, 2.0);
+  EXPECT_EQ(untimed.density_iterations_max, 9);
+  EXPECT_EQ(untimed.divergence_iterations_max, 3);
+  EXPECT_EQ(untimed.unconverged, 3);
+  EXPECT_DOUBLE_EQ(untimed.light_passes_mean, 12.0);
+  EXPECT_FALSE(untimed.light_pass_ns);
+  first.report.light_passes_ms = second.report.light_passes_ms = 6.0;
+  summarise({first, second}, 0.025, timed);
+  // 12 ms for 100 x 60 + 300 x 60 particles and passes.
+  EXPECT_DOUBLE_EQ(timed.light_pass_ns.value(), 12e6 / 24000.0);
+}
+
 TEST(Row, OfNoFramesIsZeroAndFinite) {
   Row row;
   summarise({}, 0.025, row);
