@@ -12,6 +12,12 @@ namespace squall::openmp {
 
 namespace {
 
+#if defined(__GNUC__)
+#define SQUALL_NOINLINE __attribute__((noinline))
+#else
+#define SQUALL_NOINLINE
+#endif
+
 /// The same pointer, of which the compiler no longer knows that it is: what is read through it is read anew.
 template <class T>
 SQUALL_INLINE const T* reload(const T* pointer) {
@@ -31,6 +37,10 @@ struct Block {
 /// The block's part of an array with a value per sorted particle.
 template <class Pack>
 void store_lanes(float* values, const Block& block, Pack value) {
+  if (block.count() == Pack::k_lanes) {
+    value.store(values + block.begin);
+    return;
+  }
   alignas(64) float lanes[Pack::k_lanes];
   value.store(lanes);
   for (int lane = 0; lane < block.count(); ++lane) values[block.begin + lane] = lanes[lane];
@@ -78,16 +88,33 @@ struct Opening {
   Pack open{1.0f}, gradient_x{0.0f}, gradient_y{0.0f}, gradient_z{0.0f};
 };
 
+/// Whether a lane is within the support of a face of the container.
+template <class Pack>
+bool is_near_container(const PassContext& context, Mask valid, Pack x, Pack y, Pack z) {
+  const Params<float>& p = *context.params;
+  const Pack reach(p.support_radius);
+  const auto outside = [&](Pack coordinate, float size) {
+    return (coordinate < reach) | (Pack(size) - reach < coordinate);
+  };
+  return any(valid & (outside(x, p.size_x) | outside(y, p.size_y) | outside(z, p.size_z)));
+}
+
+/// Whether a lane is within the support of the box between two corners.
+template <class Pack>
+bool is_near_box(const PassContext& context, Mask valid, const float* low, const float* high, Pack x, Pack y, Pack z) {
+  const Pack reach(context.params->support_radius);
+  const auto within = [&](Pack coordinate, int axis) {
+    return (Pack(low[axis]) - reach < coordinate) & (coordinate < Pack(high[axis]) + reach);
+  };
+  return any(valid & within(x, 0) & within(y, 1) & within(z, 2));
+}
+
 template <class Pack>
 Opening<Pack> opening(const PassContext& context, int kernel_shape, bool for_density, Mask valid, Pack x, Pack y,
                       Pack z) {
   const Params<float>& p = *context.params;
   Opening<Pack> result;
-  const Pack reach(p.support_radius);
-  const auto outside = [&](Pack coordinate, float size) {
-    return (coordinate < reach) | (Pack(size) - reach < coordinate);
-  };
-  if (any(valid & (outside(x, p.size_x) | outside(y, p.size_y) | outside(z, p.size_z)))) {
+  if (is_near_container(context, valid, x, y, z)) {
     const Pack shift(for_density ? p.density_wall_shift : p.force_wall_shift);
     result.open =
         container_opening(&p, kernel_shape, shift, x, y, z, &result.gradient_x, &result.gradient_y, &result.gradient_z);
@@ -96,10 +123,7 @@ Opening<Pack> opening(const PassContext& context, int kernel_shape, bool for_den
     const Box<float>& box = context.boxes[b];
     const float* low = for_density ? box.density_min : box.force_min;
     const float* high = for_density ? box.density_max : box.force_max;
-    const auto within = [&](Pack coordinate, int axis) {
-      return (Pack(low[axis]) - reach < coordinate) & (coordinate < Pack(high[axis]) + reach);
-    };
-    if (!any(valid & within(x, 0) & within(y, 1) & within(z, 2))) continue;
+    if (!is_near_box(context, valid, low, high, x, y, z)) continue;
     result.open = close_box(&p, kernel_shape, low, high, x, y, z, result.open, &result.gradient_x, &result.gradient_y,
                             &result.gradient_z);
   }

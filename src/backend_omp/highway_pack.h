@@ -153,6 +153,24 @@ HWY_INLINE void broadcast_fields(const float* record, int first, Pack* fields) {
   fields[3] = Pack(hn::Broadcast<3>(four));
 }
 
+/// Sum of convergence_term over the lanes of `valid`: below 2^52 a double holds integers and, 3 * 2^51 added, rounds to
+/// them and shows them in its bits.
+HWY_INLINE std::int64_t sum_of_terms(Pack error, Mask valid) {
+  const Floats d;
+  const hn::RepartitionToWide<Floats> wide;
+  const hn::RebindToSigned<decltype(wide)> integers;
+  const auto counted = hn::And(valid.lanes, hn::Lt(hn::Zero(d), error.lanes));
+  const auto clamped = hn::Min(hn::IfThenElseZero(counted, error.lanes), hn::Set(d, 1024.0f));
+  const auto shift = hn::Set(wide, 6755399441055744.0);
+  const auto rounded = [&](auto half) {
+    const auto scaled = hn::Mul(hn::PromoteTo(wide, half), hn::Set(wide, 4294967296.0));
+    return hn::Sub(hn::BitCast(integers, hn::Add(scaled, shift)), hn::BitCast(integers, shift));
+  };
+  const hn::Half<Floats> half;
+  const auto sums = hn::Add(rounded(hn::LowerHalf(half, clamped)), rounded(hn::UpperHalf(half, clamped)));
+  return hn::GetLane(hn::SumOfLanes(integers, sums));
+}
+
 /// A cell coordinate per lane.
 struct Cells {
   hn::Vec<Bits> lanes;

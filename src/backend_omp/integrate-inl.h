@@ -99,9 +99,9 @@ struct Maxima {
 
 /// Writes the block's records; none behind its end, which may be another thread's.
 template <class Pack>
-void write_records(const Block& block, const Pack* position, const Pack* velocity, Record* next) {
+void write_records(const Block& block, const Pack* position, Pack pressure, const Pack* velocity, Record* next) {
   const Pack zero(0.0f);
-  const Pack fields[8] = {position[0], position[1], position[2], zero, velocity[0], velocity[1], velocity[2], zero};
+  const Pack fields[8] = {position[0], position[1], position[2], pressure, velocity[0], velocity[1], velocity[2], zero};
   Record part[Pack::k_lanes];
   const bool full = block.count() == Pack::k_lanes;
   auto* to = reinterpret_cast<float*>(full ? next + block.begin : part);
@@ -125,6 +125,17 @@ void write_keys(const PassContext& context, const Block& block, const Pack* posi
   }
 }
 
+/// The end of a sub-step: safety net, maxima, records and keys of what went `from` somewhere `to` somewhere.
+template <class Pack>
+void finish_block(const PassContext& context, const Block& block, const Pack* from, Pack* to, Pack* v, const Pack* a,
+                  Pack pressure, PassResult& result, Maxima<Pack>& maxima, int* key_counts) {
+  Mask kept = first_lanes(block.count());
+  if (!all_clear(context, kept, from, to)) kept = kept & keep_block_inside(context, block, from, to, v, result);
+  maxima.note(kept, v, a);
+  write_records(block, to, pressure, v, context.next);
+  write_keys(context, block, to, kept, key_counts);
+}
+
 template <class Pack>
 void integrate_block(const PassContext& context, const Block& block, const Lanes<Pack>& at, const Vector<Pack>& force,
                      PassResult& result, Maxima<Pack>& maxima, int* key_counts) {
@@ -139,11 +150,7 @@ void integrate_block(const PassContext& context, const Block& block, const Lanes
     v[axis] = fma(Pack(substep.kick), a[axis], v[axis]);
     to[axis] = fma(Pack(substep.dt), v[axis], to[axis]);
   }
-  Mask kept = first_lanes(block.count());
-  if (!all_clear(context, kept, from, to)) kept = kept & keep_block_inside(context, block, from, to, v, result);
-  maxima.note(kept, v, a);
-  write_records(block, to, v, context.next);
-  write_keys(context, block, to, kept, key_counts);
+  finish_block(context, block, from, to, v, a, Pack(0.0f), result, maxima, key_counts);
 }
 
 }  // namespace

@@ -1,15 +1,37 @@
 #include "backend_omp/neighbour_list.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
 namespace squall::openmp {
 
+PairValues::PairValues(PairValues&& other) noexcept
+    : data(std::exchange(other.data, nullptr)),
+      used(std::exchange(other.used, 0)),
+      capacity(std::exchange(other.capacity, 0)) {}
+
+PairValues::~PairValues() { std::free(data); }
+
+bool PairValues::grow(std::size_t more) {
+  constexpr std::size_t k_line = 64;
+  const std::size_t wanted = (used + more) + (used + more) / 2;
+  const std::size_t bytes = (wanted * sizeof(float) + k_line - 1) / k_line * k_line;
+  auto* larger = static_cast<float*>(std::aligned_alloc(k_line, bytes));
+  if (larger == nullptr) return false;
+  std::copy(data, data + used, larger);
+  std::free(data);
+  data = larger;
+  capacity = wanted;
+  return true;
+}
+
 NeighbourList::NeighbourList(NeighbourList&& other) noexcept
     : data(std::exchange(other.data, nullptr)),
       used(std::exchange(other.used, 0)),
       capacity(std::exchange(other.capacity, 0)),
-      out_of_memory(other.out_of_memory) {}
+      out_of_memory(other.out_of_memory),
+      weights(std::move(other.weights)) {}
 
 NeighbourList::~NeighbourList() { std::free(data); }
 

@@ -10,6 +10,7 @@
 #include "backend_omp/omp_backend.h"
 #include "backend_omp/passes.h"
 #include "backend_omp/phase_clock.h"
+#include "backend_omp/pressure_solve.h"
 #include "backend_omp/row_split.h"
 #include "backend_omp/team_array.h"
 #include "grid.h"
@@ -45,14 +46,14 @@ class OmpSolver final : public Solver {
         simd_(choose_simd(settings.simd)),
         passes_(passes_for(simd_)),
         p_(to_single(params())),
-        terms_{settings.pressure, scene.fluid.viscosity_m2_s.has_value(), !scene.rains.empty()},
+        terms_{settings.pressure, scene.fluid.viscosity_m2_s.has_value(), !scene.rains.empty(),
+               scene.solver.xsph > 0.0},
         barrier_(threads_),
         sort_(p_.cell_count, threads_),
-        lists_(static_cast<std::size_t>(threads_)) {
+        lists_(static_cast<std::size_t>(threads_)),
+        solve_(passes_, scene.solver, threads_) {
     if (settings.precision != Precision::single_precision)
       throw InputError("precision double is not in this version of the omp backend; use --backend reference");
-    if (settings.pressure == Pressure::dfsph)
-      throw InputError("pressure dfsph is not in this version of the omp backend; use --backend reference");
     for (const auto& box : boxes()) boxes_.push_back(to_single(box));
     resize(0);
   }
@@ -73,7 +74,8 @@ class OmpSolver final : public Solver {
     resize(count_ + particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
       const Eigen::Vector3f x = particles.positions[i].cast<float>(), v = particles.velocities[i].cast<float>();
-      state_[first + i] = {x.x(), x.y(), x.z(), 0.0f, v.x(), v.y(), v.z(), 0.0f};
+      const auto pressure = static_cast<float>(particles.pressures[i]);
+      state_[first + i] = {x.x(), x.y(), x.z(), pressure, v.x(), v.y(), v.z(), 0.0f};
       ids_[ids_now_][first + i] = particles.ids[i];
       lost_ += is_lost(x.x());
     }
@@ -96,6 +98,7 @@ class OmpSolver final : public Solver {
     density_.resize(padded, 1.0f, threads_);
     if (terms_.pressure == Pressure::mueller) pressure_.resize(padded, 0.0f, threads_);
     if (terms_.drag) isolation_.resize(padded, 0.0f, threads_);
+    if (terms_.pressure == Pressure::dfsph) solve_.resize(padded, threads_);
     count_ = count;
   }
 
@@ -113,7 +116,7 @@ class OmpSolver final : public Solver {
       barrier_.resize(omp_get_num_threads());
       const int thread = omp_get_thread_num();
       barrier_.enter(thread);
-      const std::size_t done = advance_thread(thread, substeps, clock);
+      const std::size_t done = advance_thread(thread, substeps, clock, report);
 #pragma omp single
       ids_now_ = (ids_now_ + done) % 2;
     }
@@ -123,7 +126,8 @@ class OmpSolver final : public Solver {
 
   /// A frame as one thread of the team sees it. Returns how many sub-steps were done: all of them, unless memory ran
   /// out.
-  std::size_t advance_thread(int thread, const std::vector<Substep<float>>& substeps, PhaseClock& clock) {
+  std::size_t advance_thread(int thread, const std::vector<Substep<float>>& substeps, PhaseClock& clock,
+                             FrameReport& report) {
     const auto count = static_cast<int>(count_);
     Range chunk = share_of(count, thread, barrier_.threads());
     for (std::size_t s = 0; s < substeps.size(); ++s) {
@@ -140,9 +144,7 @@ class OmpSolver final : public Solver {
                  {sorted_.data(), sorted_ids.data(), x_.data(), y_.data(), z_.data()});
       if (thread == 0) clock.finish("sort");
       const Range rows = split_rows(sort_.cell_start(), p_, passes_.lanes, thread, barrier_.threads());
-      find_densities(thread, substeps[s], rows);
-      if (thread == 0) clock.finish("density");
-      if (any_out_of_memory()) return s;
+      if (!find_pressures(thread, substeps[s], rows, clock, report)) return s;
       chunk = move_particles(thread, substeps[s], rows);
       // What is held or lost stays as it is, but may be held no longer. Its keys are counted after those of the rows.
       if (thread == barrier_.threads() - 1 && s + 1 < substeps.size())
@@ -150,7 +152,7 @@ class OmpSolver final : public Solver {
                     {state_.data(), sorted_ids.data(), keys_.data()});
       barrier_.wait(thread);
       if (thread == 0) {
-        clock.finish("forces");
+        clock.finish(terms_.pressure == Pressure::dfsph ? "drift" : "forces");
         clock.finish_substep();
       }
     }
@@ -162,13 +164,32 @@ class OmpSolver final : public Solver {
   }
 
   PassContext context(const Substep<float>& substep) {
-    return {&p_,       &substep,  boxes_.data(), terms_,       sort_.cell_start(), sorted_.data(),   x_.data(),
-            y_.data(), z_.data(), state_.data(), keys_.data(), density_.data(),    pressure_.data(), isolation_.data()};
+    return {&p_,
+            &substep,
+            boxes_.data(),
+            terms_,
+            sort_.cell_start(),
+            sorted_.data(),
+            x_.data(),
+            y_.data(),
+            z_.data(),
+            state_.data(),
+            keys_.data(),
+            density_.data(),
+            pressure_.data(),
+            isolation_.data(),
+            solve_.arrays()};
   }
 
-  void find_densities(int thread, const Substep<float>& substep, Range rows) {
-    passes_.density(context(substep), rows.begin, rows.end, lists_[static_cast<std::size_t>(thread)]);
+  /// Densities and pressures; of dfsph the whole solve. False, for every thread, if one is out of memory.
+  bool find_pressures(int thread, const Substep<float>& substep, Range rows, PhaseClock& clock, FrameReport& report) {
+    NeighbourList& list = lists_[static_cast<std::size_t>(thread)];
+    if (terms_.pressure == Pressure::dfsph)
+      return solve_.make_incompressible(barrier_, thread, context(substep), rows, list, clock, report);
+    passes_.density(context(substep), rows.begin, rows.end, list);
     barrier_.wait(thread);
+    if (thread == 0) clock.finish("density");
+    return !any_out_of_memory();
   }
 
   /// Forces and all that follows. Returns the thread's chunk of the next sort: its rows, and for the last thread also
@@ -178,7 +199,10 @@ class OmpSolver final : public Solver {
     const PassContext all = context(substep);
     int* key_counts = sort_.clear_counts(thread);
     if (substep.statistics != 0) passes_.statistics(all, rows.begin, rows.end, lists_[t], results_[t]);
-    passes_.forces(all, rows.begin, rows.end, lists_[t], results_[t], key_counts);
+    if (terms_.pressure == Pressure::dfsph)
+      passes_.drift(all, rows.begin, rows.end, results_[t], key_counts);
+    else
+      passes_.forces(all, rows.begin, rows.end, lists_[t], results_[t], key_counts);
     const int* start = sort_.cell_start();
     Range chunk{start[rows.begin * p_.cells_x], start[rows.end * p_.cells_x]};
     if (thread == barrier_.threads() - 1) {
@@ -247,7 +271,8 @@ class OmpSolver final : public Solver {
     for (std::size_t i = 0; i < count_; ++i) {
       const Record& r = state_[i];
       particles.add(ids_[ids_now_][i], Eigen::Vector3f(r.x, r.y, r.z).cast<double>(),
-                    Eigen::Vector3f(r.vx, r.vy, r.vz).cast<double>());
+                    Eigen::Vector3f(r.vx, r.vy, r.vz).cast<double>(),
+                    terms_.pressure == Pressure::dfsph ? static_cast<double>(r.pressure_term) : 0.0);
     }
     return particles;
   }
@@ -262,6 +287,7 @@ class OmpSolver final : public Solver {
   TeamBarrier barrier_;
   CountingSort sort_;
   std::vector<NeighbourList> lists_;  ///< per thread
+  PressureSolve solve_;               ///< of dfsph
   std::vector<PassResult> results_;   ///< per thread
   std::size_t count_ = 0;
   std::int64_t lost_ = 0;

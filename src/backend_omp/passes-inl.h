@@ -5,6 +5,8 @@
 #include "backend_omp/density-inl.h"
 #include "backend_omp/forces-inl.h"
 #include "backend_omp/integrate-inl.h"
+#include "backend_omp/predict-inl.h"
+#include "backend_omp/prepare-inl.h"
 
 namespace squall::openmp {
 
@@ -61,7 +63,7 @@ struct BlockPasses {
   template <Pressure pressure>
   static int is_neighbour(const Params<float>& p, const Record& a, const Record& b) {
     const float dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
-    if constexpr (pressure == Pressure::wcsph)
+    if constexpr (pressure != Pressure::mueller)
       return remaining_support(squall::sqrt(squared_length(dx, dy, dz)), p.inverse_support) > 0.0f ? 1 : 0;
     else
       return squared_support_left(dx, dy, dz, p.support_squared) > 0.0f ? 1 : 0;
@@ -85,14 +87,74 @@ struct BlockPasses {
 
   static void statistics(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
                          PassResult& result) {
-    if (context.terms.pressure == Pressure::wcsph)
+    if (context.terms.pressure != Pressure::mueller)
       statistics_rows<Pressure::wcsph>(context, first_row, end_row, list, result);
     else
       statistics_rows<Pressure::mueller>(context, first_row, end_row, list, result);
   }
 
+  static void prepare(const PassContext& context, int first_row, int end_row, NeighbourList& list, SolveSums& sums) {
+    list.used = list.weights.used = 0;
+    for_each_block<Pack>(context, first_row, end_row,
+                         [&](const Block& block) { prepare_block<Pack>(context, block, list, sums); });
+  }
+
+  /// Calls visit(block, list, weights, count) for every block and its neighbours.
+  template <class Visit>
+  static void for_each_list(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
+                            Visit visit) {
+    const int* neighbours = list.data;
+    const float* weights = list.weights.data;
+    for_each_block<Pack>(context, first_row, end_row, [&](const Block& block) {
+      const int count = *neighbours++;
+      visit(block, neighbours, weights, count);
+      neighbours += count;
+      weights += static_cast<std::ptrdiff_t>(count) * Pack::k_lanes;
+    });
+  }
+
+  static std::int64_t rate(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
+                           float momentum) {
+    std::int64_t sum = 0;
+    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const float* w, int count) {
+      const Lanes<Pack> lanes = own_lanes<Pack>(context.sorted, block);
+      sum +=
+          iterate_block<Pack>(context, block, lanes, receding_sum<Pack>(context.sorted, lanes, j, w, count), momentum);
+    });
+    return sum;
+  }
+
+  static void push(const PassContext& context, int first_row, int end_row, const NeighbourList& list) {
+    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const float* w, int count) {
+      push_block<Pack>(context, block, j, w, count);
+    });
+  }
+
+  template <bool viscous, bool smoothing>
+  static void predict_rows(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
+                           float correction) {
+    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const float* w, int count) {
+      predict_block<Pack, viscous, smoothing>(context, block, j, w, count, correction);
+    });
+  }
+
+  static void predict(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
+                      float correction) {
+    const PassTerms& terms = context.terms;
+    const auto rows = terms.smoothing ? (terms.viscosity ? predict_rows<true, true> : predict_rows<false, true>)
+                                      : (terms.viscosity ? predict_rows<true, false> : predict_rows<false, false>);
+    rows(context, first_row, end_row, list, correction);
+  }
+
+  static void drift(const PassContext& context, int first_row, int end_row, PassResult& result, int* key_counts) {
+    Maxima<Pack> maxima;
+    for_each_block<Pack>(context, first_row, end_row,
+                         [&](const Block& block) { drift_block<Pack>(context, block, result, maxima, key_counts); });
+    maxima.report(result);
+  }
+
   static const Passes& table() {
-    static constexpr Passes k_table{Pack::k_lanes, density, forces, statistics};
+    static constexpr Passes k_table{Pack::k_lanes, density, forces, statistics, prepare, rate, push, predict, drift};
     return k_table;
   }
 };

@@ -37,7 +37,7 @@ class PhaseClock {
   }
 
  private:
-  static constexpr std::size_t k_spans_per_substep = 6;  // as many as phases, and itself
+  static constexpr std::size_t k_spans_per_substep = 7;  // as many as phases, and itself
 
   static double milliseconds(Moment begin, Moment end) {
     return std::chrono::duration<double, std::milli>(end - begin).count();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/convergence.h"
 #include "grid.h"
 #include "shared.h"
 
@@ -60,6 +61,9 @@ inline void store_fields(float* records, int first, const Pack* fields) {
 }
 
 inline void broadcast_fields(const float* record, int first, Pack* fields) { load_fields(record, first, fields); }
+
+/// Of the lane, unless it is not valid.
+inline std::int64_t sum_of_terms(Pack error, Mask valid) { return valid.lane ? convergence_term(error.lane) : 0; }
 
 struct Cells {
   int lane;

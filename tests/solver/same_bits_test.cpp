@@ -61,7 +61,7 @@ class SameBits : public testing::TestWithParam<std::tuple<Window, Pressure>> {
 
 INSTANTIATE_TEST_SUITE_P(Windows, SameBits,
                          testing::Combine(testing::ValuesIn(windows()),
-                                          testing::Values(Pressure::wcsph, Pressure::mueller)),
+                                          testing::Values(Pressure::wcsph, Pressure::mueller, Pressure::dfsph)),
                          [](const auto& info) {
                            return std::get<0>(info.param).name + "_" + to_string(std::get<1>(info.param));
                          });
@@ -114,6 +114,12 @@ class LockStep {
     ASSERT_EQ(report.clamps, expected_report.clamps);
     ASSERT_EQ(report.lost, expected_report.lost);
     ASSERT_EQ(report.density_error_max, expected_report.density_error_max);
+    ASSERT_EQ(state.particles.pressures, expected.particles.pressures);
+    ASSERT_EQ(report.density_iterations, expected_report.density_iterations);
+    ASSERT_EQ(report.divergence_iterations, expected_report.divergence_iterations);
+    ASSERT_EQ(report.density_iterations_max, expected_report.density_iterations_max);
+    ASSERT_EQ(report.divergence_iterations_max, expected_report.divergence_iterations_max);
+    ASSERT_EQ(report.unconverged, expected_report.unconverged);
     ASSERT_EQ(report.neighbours_mean, expected_report.neighbours_mean);
   }
 
@@ -122,14 +128,20 @@ class LockStep {
   std::uint64_t last_hash_ = 0;
 };
 
+// dfsph does ten times the work in a sub-step and takes longer ones: fewer particles, fewer sub-steps.
 TEST_P(SameBits, OnAnyNumberOfThreadsAndOnOpenCl) {
   const auto [window, pressure] = GetParam();
-  const Scene scene = this->scene();
-  std::vector<BackendUnderTest> backends = {opencl("by_device", Simd::best, pressure),
-                                            opencl("particles", Simd::scalar, pressure)};
+  Scene scene = this->scene();
+  std::vector<BackendUnderTest> backends;
+  if (pressure == Pressure::dfsph) {
+    scale_to_particles(scene, 3000);
+    backends.push_back(omp("5_threads", 5, Simd::best, pressure));
+  } else {
+    backends = {opencl("by_device", Simd::best, pressure), opencl("particles", Simd::scalar, pressure)};
+  }
   for (const int threads : {1, 2, 3})
     backends.push_back(omp(std::to_string(threads) + "_threads", threads, Simd::best, pressure));
-  LockStep(backends, scene, state_at(backends.back(), scene, window.at_s)).run(200);
+  LockStep(backends, scene, state_at(backends.back(), scene, window.at_s)).run(pressure == Pressure::dfsph ? 40 : 200);
 }
 
 // Every instruction set, every width of OpenCL kernels, and the specification in single precision; on fewer particles,
@@ -137,9 +149,10 @@ TEST_P(SameBits, OnAnyNumberOfThreadsAndOnOpenCl) {
 TEST_P(SameBits, OnAnyInstructionSetAndInTheReference) {
   const auto [window, pressure] = GetParam();
   Scene scene = this->scene();
-  scale_to_particles(scene, 700);
+  const bool dfsph = pressure == Pressure::dfsph;
+  scale_to_particles(scene, dfsph ? 400 : 700);
   const std::vector<BackendUnderTest> backends = bitwise_backends(pressure);
-  LockStep(backends, scene, state_at(backends.front(), scene, window.at_s)).run(100);
+  LockStep(backends, scene, state_at(backends.front(), scene, window.at_s)).run(dfsph ? 20 : 100);
 }
 
 // More neighbours than the OpenCL backend's lists and search batches hold (kernels/lists.h, search.h): 1,000 particles
@@ -152,7 +165,7 @@ TEST(SameBitsInCrowds, HoweverManyNeighboursThereAre) {
   const Particles thin = random_particles(400, corner, corner + Eigen::Vector3d::Constant(2.5 * reach), 0, 6);
   for (std::size_t i = 0; i < thin.size(); ++i)
     crowd.add(static_cast<std::uint32_t>(1000 + i), thin.positions[i], thin.velocities[i]);
-  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller}) {
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph}) {
     const std::vector<BackendUnderTest> backends = bitwise_backends(pressure);
     const auto first = backends.front().make(scene);
     first->load(crowd);

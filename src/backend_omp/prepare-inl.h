@@ -1,0 +1,162 @@
+#pragma once
+
+// Included once per instruction set, after its Pack: how dfsph finds neighbours, their weights, and what the solves
+// need of each particle.
+
+#include "backend_omp/iteration-inl.h"
+#include "backend_omp/neighbours-inl.h"
+#include "wall_cores.h"
+
+namespace squall::openmp {
+
+namespace {
+
+/// Walls near a block, with their cores: what dfsph takes for density and force.
+template <class Pack>
+Opening<Pack> opening_with_cores(const PassContext& context, Mask valid, Pack x, Pack y, Pack z) {
+  const Params<float>& p = *context.params;
+  Opening<Pack> result = opening(context, SQUALL_CUBIC, true, valid, x, y, z);
+  if (is_near_container(context, valid, x, y, z))
+    result.open =
+        close_container_cores(&p, x, y, z, result.open, &result.gradient_x, &result.gradient_y, &result.gradient_z);
+  for (int b = 0; b < context.substep->box_count; ++b) {
+    const Box<float>& box = context.boxes[b];
+    if (!is_near_box(context, valid, box.solid_min, box.solid_max, x, y, z)) continue;
+    result.open =
+        close_box_core(&p, &box, x, y, z, result.open, &result.gradient_x, &result.gradient_y, &result.gradient_z);
+  }
+  return result;
+}
+
+/// What a block sums up over its neighbours before anything is solved.
+template <class Pack>
+struct PreparedSums {
+  Pack kernel{0.0f};
+  Pack squares{0.0f};  ///< of slopes
+  Vector<Pack> gradient;
+  Pack receding{0.0f};
+};
+
+/// Weights of a list's pairs, from which it takes what is near no lane of the block, and sums of what comes with them.
+template <class Pack>
+SQUALL_NOINLINE int find_weights(const PassContext& context, const Pack* position, int* list, float* weights, int count,
+                                 PreparedSums<Pack>& sums) {
+  const Params<float>& p = *context.params;
+  const Pack inverse_support(p.inverse_support), inverse_half_support(p.inverse_half_support);
+  const Pack tiny(p.tiny), reach2(p.list_squared);
+  const Record* records = context.sorted;
+  const Pack x = position[0], y = position[1], z = position[2];
+  Pack kernel[2] = {Pack(0.0f), Pack(0.0f)};  // by the parity of the sorted index
+  Pack squares(0.0f);
+  std::ptrdiff_t kept = 0;
+  for (int k = 0; k < count; ++k) {
+    const int j = list[k];
+    const Record& b = records[j];
+    const Pack r2 = squared_length(x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
+    const Pack r = sqrt(r2);
+    const Pack u = remaining_support(r, inverse_support);
+    const Pack w = remaining_support(r, inverse_half_support);
+    const Pack slope = cubic_slope(u, w);
+    pair_weight(slope, r, tiny).store(weights + kept * Pack::k_lanes);
+    kernel[j & 1] = kernel[j & 1] + cubic_value(u, w);
+    squares = fma(slope, slope, squares);
+    list[kept] = j;
+    kept += any(r2 < reach2) ? 1 : 0;
+  }
+  sums.kernel = kernel[0] + kernel[1];
+  sums.squares = squares;
+  return static_cast<int>(kept);
+}
+
+/// Sums over a list with its weights: of weight x_ij, and receding_sum.
+template <class Pack>
+SQUALL_NOINLINE void sum_slopes(const Record* records, const Lanes<Pack>& a, const int* list, const float* weights,
+                                int count, PreparedSums<Pack>& sums) {
+  const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz();
+  Vector<Pack> gradient;
+  Pack receding(0.0f);
+  for_each_pair<Pack>(records, list, weights, count, [&](const Record& b, Pack weight) {
+    const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
+    gradient.add_scaled(weight, dx, dy, dz);
+    receding = fma(weight, dot_product(dx, dy, dz, vx - Pack(b.vx), vy - Pack(b.vy), vz - Pack(b.vz)), receding);
+  });
+  sums.gradient = gradient;
+  sums.receding = receding;
+}
+
+/// Density, response to pressure, walls. Returns the density.
+template <class Pack>
+Pack note_prepared(const PassContext& context, const Block& block, const Pack* position,
+                   const PreparedSums<Pack>& sums) {
+  const Params<float>& p = *context.params;
+  const SolveArrays& arrays = context.solve;
+  const Opening<Pack> walls =
+      opening_with_cores(context, first_lanes(block.count()), position[0], position[1], position[2]);
+  const Pack sum = sums.kernel;
+  const Pack wall_share = Pack(1.0f) - walls.open;
+  const Pack density = relative_density(sum, Pack(p.density_scale), wall_share);
+  const Pack scale(p.force_scale);
+  const Pack response =
+      pressure_response(fma(scale, sums.gradient.x, walls.gradient_x), fma(scale, sums.gradient.y, walls.gradient_y),
+                        fma(scale, sums.gradient.z, walls.gradient_z), sums.squares, scale);
+  store_lanes(context.density, block, density);
+  store_lanes(arrays.opening_x, block, walls.gradient_x);
+  store_lanes(arrays.opening_y, block, walls.gradient_y);
+  store_lanes(arrays.opening_z, block, walls.gradient_z);
+  store_lanes(arrays.response, block, response);
+  store_lanes(arrays.inverse_response, block, inverse_response(response, Pack(p.response_guard)));
+  if (context.terms.drag)
+    store_lanes(context.isolation, block,
+                isolation(sum, Pack(p.self_value), Pack(p.density_scale), wall_share, Pack(p.steepness)));
+  return density;
+}
+
+/// Where the solves of a block begin: the divergence solve from no impulse, the density solve from that of the last
+/// pressure, which neighbours will want to know.
+template <class Pack>
+void note_start(const PassContext& context, const Block& block, const Lanes<Pack>& lanes, Pack density) {
+  const Params<float>& p = *context.params;
+  const Substep<float>& substep = *context.substep;
+  const SolveArrays& arrays = context.solve;
+  store_lanes(arrays.room, block, divergence_room(density, Pack(p.free_density)));
+  store_lanes(arrays.impulse, block, Pack(0.0f));
+  store_lanes(arrays.projected, block, Pack(0.0f));
+  store_lanes(arrays.start_vx, block, lanes.vx());
+  store_lanes(arrays.start_vy, block, lanes.vy());
+  store_lanes(arrays.start_vz, block, lanes.vz());
+  const Pack largest(p.largest_warm_impulse / substep.dt);
+  alignas(64) float warm[Pack::k_lanes];
+  warm_impulse(lanes.pressure_term(), Pack(substep.warm_kick), largest).store(warm);
+  for (int lane = 0; lane < block.count(); ++lane) context.sorted[block.begin + lane].volume_term = warm[lane];
+}
+
+template <class Pack>
+void prepare_block(const PassContext& context, const Block& block, NeighbourList& neighbours, SolveSums& totals) {
+  Range ranges[9];
+  int total = 0;
+  const int range_count = candidate_ranges(context, block, ranges, total);
+  if (!neighbours.reserve(static_cast<std::size_t>(total + Pack::k_lanes) + 1)) return;
+  int* list = neighbours.data + neighbours.used + 1;
+  const Pack position[3] = {Pack::load(context.x + block.begin), Pack::load(context.y + block.begin),
+                            Pack::load(context.z + block.begin)};
+  int count = find_neighbours(context, ranges, range_count, Bounds<Pack>(block, position), list);
+  if (!neighbours.reserve_weights(static_cast<std::size_t>(count) * Pack::k_lanes)) return;
+  float* weights = neighbours.weights.data + neighbours.weights.used;
+
+  const Lanes<Pack> lanes = own_lanes<Pack>(context.sorted, block);
+  PreparedSums<Pack> sums;
+  count = find_weights(context, position, list, weights, count, sums);
+  list[-1] = count;
+  neighbours.used += static_cast<std::size_t>(count) + 1;
+  neighbours.weights.used += static_cast<std::size_t>(count) * Pack::k_lanes;
+  sum_slopes(context.sorted, lanes, list, weights, count, sums);
+
+  const Pack density = note_prepared(context, block, position, sums);
+  note_start(context, block, lanes, density);
+  totals.excess += sum_of_terms(density - Pack(1.0f), first_lanes(block.count()));
+  totals.error += iterate_block(context, block, lanes, sums.receding, 0.0f);
+}
+
+}  // namespace
+
+}  // namespace squall::openmp
