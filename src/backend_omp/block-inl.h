@@ -3,6 +3,9 @@
 // Included once per instruction set, after its Pack. Nothing here has external linkage: code compiled for one
 // instruction set must not be picked by the linker for another.
 
+#include <cstddef>
+#include <cstdint>
+
 #include "backend_omp/passes.h"
 #include "boundary.h"
 #include "grid.h"
@@ -25,6 +28,13 @@ SQUALL_INLINE const T* reload(const T* pointer) {
   asm volatile("" : "+r"(pointer));
 #endif
   return pointer;
+}
+
+/// Asks for the cache line `ahead` values further on, which may lie behind the end: nothing is read.
+SQUALL_INLINE void prefetch([[maybe_unused]] const float* from, [[maybe_unused]] std::size_t ahead) {
+#if defined(__GNUC__)
+  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(from) + ahead * sizeof(float)));
+#endif
 }
 
 /// Up to Pack::k_lanes consecutive particles of one row of cells, one per lane.

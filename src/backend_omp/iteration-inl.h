@@ -22,11 +22,15 @@ Lanes<Pack> own_lanes(const Record* records, const Block& block) {
   return Lanes<Pack>(part, 0);
 }
 
-/// Calls visit(neighbour, weight) for a list, two to a round: the loop itself is a tenth of a light pass.
-template <class Pack, class Visit>
+enum class Weights { near, far };  ///< in a near cache, or perhaps not
+
+/// Calls visit(neighbour, weight) for a list, two to a round: the loop itself is a tenth of a light pass. Weights from
+/// far away are asked for eight rounds before.
+template <class Pack, Weights weights_are, class Visit>
 SQUALL_INLINE void for_each_pair(const Record* records, const int* list, const float* weights, int count, Visit visit) {
   int k = 0;
   for (; k + 1 < count; k += 2, weights += 2 * Pack::k_lanes) {
+    if constexpr (weights_are == Weights::far) prefetch(weights, 16 * Pack::k_lanes);
     visit(records[list[k]], Pack::load(weights));
     visit(records[list[k + 1]], Pack::load(weights + Pack::k_lanes));
   }
@@ -40,7 +44,7 @@ SQUALL_NOINLINE Pack receding_sum(const Record* records, const Lanes<Pack>& a, c
                                   int count) {
   const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz();
   Pack sum(0.0f);
-  for_each_pair<Pack>(records, list, weights, count, [&](const Record& b, Pack weight) {
+  for_each_pair<Pack, Weights::far>(records, list, weights, count, [&](const Record& b, Pack weight) {
     const Pack receding =
         dot_product(x - Pack(b.x), y - Pack(b.y), z - Pack(b.z), vx - Pack(b.vx), vy - Pack(b.vy), vz - Pack(b.vz));
     sum = fma(weight, receding, sum);
@@ -54,7 +58,7 @@ SQUALL_NOINLINE Vector<Pack> pushed_sum(const Record* records, const Lanes<Pack>
                                         const float* weights, int count) {
   const Pack x = a.x(), y = a.y(), z = a.z(), change = a.pressure_term();
   Vector<Pack> sum;
-  for_each_pair<Pack>(records, list, weights, count, [&](const Record& b, Pack weight) {
+  for_each_pair<Pack, Weights::far>(records, list, weights, count, [&](const Record& b, Pack weight) {
     sum.add_scaled((change + Pack(b.pressure_term)) * weight, x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
   });
   return sum;

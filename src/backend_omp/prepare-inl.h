@@ -75,7 +75,7 @@ SQUALL_NOINLINE void sum_slopes(const Record* records, const Lanes<Pack>& a, con
   const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz();
   Vector<Pack> gradient;
   Pack receding(0.0f);
-  for_each_pair<Pack>(records, list, weights, count, [&](const Record& b, Pack weight) {
+  for_each_pair<Pack, Weights::near>(records, list, weights, count, [&](const Record& b, Pack weight) {
     const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
     gradient.add_scaled(weight, dx, dy, dz);
     receding = fma(weight, dot_product(dx, dy, dz, vx - Pack(b.vx), vy - Pack(b.vy), vz - Pack(b.vz)), receding);
