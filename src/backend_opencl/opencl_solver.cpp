@@ -265,7 +265,7 @@ std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings
   if (settings.precision != Precision::single_precision)
     throw InputError("the opencl backend computes in single precision; drop --precision double, or use --backend omp");
   if (settings.pressure == Pressure::dfsph)
-    throw InputError("pressure dfsph is not in this version of the opencl backend; use --backend reference");
+    throw InputError("pressure dfsph is not in this version of the opencl backend; use --backend omp or reference");
   return std::make_unique<OpenclSolver>(scene, settings);
 }
 

@@ -46,6 +46,21 @@ TEST(CompareCommand, TheReferenceRunsOnlyWhenNamedAndNeverAgrees) {
   EXPECT_FALSE(result["runs"][0].contains("position_error_dx"));
 }
 
+TEST(CompareCommand, LeavesOutWhatDoesNotHaveThePressureSolver) {
+  const Outcome outcome =
+      squall({"compare", k_tiny, "--pressure", "dfsph", "--threads", "1,2", "--frames", "4", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("opencl is left out"), std::string::npos) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_THAT(labels(result), testing::ElementsAre("omp, 1 thread", "omp, 2 threads"));
+  EXPECT_EQ(result["agreement"]["bitwise"], true);
+  for (const json& run : result["runs"]) {
+    EXPECT_GE(run["density_iterations"]["mean"], 2.0);
+    EXPECT_GT(run["light_pass_ns"], 0.0);
+    EXPECT_TRUE(run["phase_ms"].contains("density solve")) << run["phase_ms"];
+  }
+}
+
 TEST(CompareCommand, ThreadCountsAgreeBitByBit) {
   const TemporaryFolder folder;
   const Outcome outcome = squall({"compare", k_tiny, "--backend", "reference", "--backend", "omp", "--threads", "1,2,3",
