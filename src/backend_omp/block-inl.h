@@ -21,15 +21,6 @@ namespace {
 #define SQUALL_NOINLINE
 #endif
 
-/// The same pointer, of which the compiler no longer knows that it is: what is read through it is read anew.
-template <class T>
-SQUALL_INLINE const T* reload(const T* pointer) {
-#if defined(__GNUC__)
-  asm volatile("" : "+r"(pointer));
-#endif
-  return pointer;
-}
-
 /// Asks for the cache line `ahead` values further on, which may lie behind the end: nothing is read.
 SQUALL_INLINE void prefetch([[maybe_unused]] const float* from, [[maybe_unused]] std::size_t ahead) {
 #if defined(__GNUC__)

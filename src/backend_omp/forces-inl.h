@@ -37,17 +37,15 @@ struct Vector {
   }
 };
 
-/// What the loops over neighbours need beside the neighbour. Where there are fewer registers than that, it is read anew
-/// for each neighbour, from the first-level cache: a compiler left alone keeps constants and spills the sums.
+/// What the loops over neighbours need beside the neighbour.
 template <class Pack>
 struct LoopConstants {
-  Pack inverse_support, inverse_half_support, one, softening, tiny, artificial_scale, viscosity_scale;
+  Pack inverse_support, inverse_half_support, softening, tiny, artificial_scale, viscosity_scale;
   Pack vx, vy, vz, pressure, volume;
 
   LoopConstants(const Params<float>& p, const Lanes<Pack>& a, Pack pressure)
       : inverse_support(p.inverse_support),
         inverse_half_support(p.inverse_half_support),
-        one(1.0f),
         softening(p.softening),
         tiny(p.tiny),
         artificial_scale(p.artificial_scale),
@@ -57,8 +55,6 @@ struct LoopConstants {
         vz(a.vz()),
         pressure(pressure),
         volume(a.volume_term()) {}
-
-  const LoopConstants& ready() const { return Pack::k_many_registers ? *this : *reload(this); }
 };
 
 /// -(v_i - v_j) . (x_i - x_j). Here and in add_velocity the difference is taken in whichever order brings the
@@ -82,27 +78,53 @@ void add_velocity(const LoopConstants<Pack>& c, const Record& b, Pack s, Vector<
     sum.add_scaled(s, vx - c.vx, vy - c.vy, vz - c.vz);
 }
 
+/// What is under way for a stretch of a block's neighbours. Their contributions are made in three short loops instead
+/// of one long one: from a pair's load to its sum lies a chain of some 65 cycles, and a processor has room for about
+/// three pairs in such a chain, but for many in each of its parts.
+constexpr int k_stretch = 16;
+
+template <class Pack>
+struct Stretch {
+  Pack x[k_stretch], y[k_stretch], z[k_stretch];  ///< of the block's particles, from the neighbour
+  Pack r[k_stretch], r2[k_stretch], closing[k_stretch];
+  Pack numerator[k_stretch], denominator[k_stretch];  ///< of what x, y, z go into the sum with
+};
+
+template <class Pack>
+void add_stretch(const Stretch<Pack>& s, int count, Vector<Pack>& sum) {
+  for (int k = 0; k < count; ++k) sum.add_scaled(s.numerator[k] / s.denominator[k], s.x[k], s.y[k], s.z[k]);
+}
+
 template <class Pack, bool viscous>
 Vector<Pack> wcsph_acceleration(const PassContext& context, const Block& block, const Lanes<Pack>& a, const int* list,
-                                int count) {
+                                int total) {
   const Params<float>& p = *context.params;
   const Pack x = a.x(), y = a.y(), z = a.z();
-  const LoopConstants<Pack> constants(p, a, a.pressure_term());
+  const LoopConstants<Pack> c(p, a, a.pressure_term());
   Vector<Pack> sum;
-  for (int k = 0; k < count; ++k) {
-    const LoopConstants<Pack>& c = constants.ready();
-    const Record& b = context.sorted[list[k]];
-    const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
-    const Pack r2 = squared_length(dx, dy, dz);
-    const Pack r = sqrt(r2);
-    const Pack u = remaining_support(r, c.inverse_support);
-    const Pack w = remaining_support(r, c.inverse_half_support);
-    const Pack closing = closing_speed(c, b, dx, dy, dz);
-    Pack shear = c.artificial_scale * max0(closing);
-    if constexpr (viscous) shear = fma(c.viscosity_scale, closing, shear);
-    sum.add_scaled(wcsph_pair(r, r2, cubic_slope(u, w), Pack(b.pressure_term) + c.pressure,
-                              Pack(b.volume_term) + c.volume, shear, c.softening, c.tiny),
-                   dx, dy, dz);
+  Stretch<Pack> s;
+  for (; total > 0; total -= k_stretch, list += k_stretch) {
+    const int count = total < k_stretch ? total : k_stretch;
+    for (int k = 0; k < count; ++k) {
+      const Record& b = context.sorted[list[k]];
+      s.x[k] = x - Pack(b.x);
+      s.y[k] = y - Pack(b.y);
+      s.z[k] = z - Pack(b.z);
+      s.r2[k] = squared_length(s.x[k], s.y[k], s.z[k]);
+      s.r[k] = sqrt(s.r2[k]);
+      s.closing[k] = closing_speed(c, b, s.x[k], s.y[k], s.z[k]);
+    }
+    for (int k = 0; k < count; ++k) {
+      const Record& b = context.sorted[list[k]];
+      const Pack u = remaining_support(s.r[k], c.inverse_support);
+      const Pack w = remaining_support(s.r[k], c.inverse_half_support);
+      Pack shear = c.artificial_scale * max0(s.closing[k]);
+      if constexpr (viscous) shear = fma(c.viscosity_scale, s.closing[k], shear);
+      s.numerator[k] = wcsph_numerator(s.r2[k], cubic_slope(u, w), Pack(b.pressure_term) + c.pressure,
+                                       Pack(b.volume_term) + c.volume, shear, c.softening);
+      s.denominator[k] = wcsph_denominator(s.r[k], s.r2[k], c.softening, c.tiny);
+    }
+    add_stretch(s, count, sum);
   }
   const Opening<Pack> walls = opening(context, SQUALL_CUBIC, false, first_lanes(block.count()), x, y, z);
   const Pack scale(p.force_scale), pressure = a.pressure_term();
@@ -112,31 +134,41 @@ Vector<Pack> wcsph_acceleration(const PassContext& context, const Block& block, 
 
 template <class Pack, bool viscous>
 Vector<Pack> mueller_acceleration(const PassContext& context, const Block& block, const Lanes<Pack>& a, const int* list,
-                                  int count) {
+                                  int total) {
   const Params<float>& p = *context.params;
   const Pack x = a.x(), y = a.y(), z = a.z();
   const Pack pressure = Pack::load(context.pressure + block.begin);
   const Pack density = Pack::load(context.density + block.begin);
-  const LoopConstants<Pack> constants(p, a, pressure);
+  const LoopConstants<Pack> c(p, a, pressure);
   Vector<Pack> push, drag;
-  for (int k = 0; k < count; ++k) {
-    const LoopConstants<Pack>& c = constants.ready();
-    const Record& b = context.sorted[list[k]];
-    const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
-    const Pack r = sqrt(squared_length(dx, dy, dz));
-    const Pack u = remaining_support(r, c.inverse_support);
-    const Pack volume(b.volume_term);
-    push.add_scaled(mueller_pair(r, u, c.pressure, volume, Pack(b.pressure_term), c.tiny), dx, dy, dz);
-    if constexpr (viscous) add_velocity(c, b, viscosity_laplacian(u) * volume, drag);
+  Stretch<Pack> s;
+  for (; total > 0; total -= k_stretch, list += k_stretch) {
+    const int count = total < k_stretch ? total : k_stretch;
+    for (int k = 0; k < count; ++k) {
+      const Record& b = context.sorted[list[k]];
+      s.x[k] = x - Pack(b.x);
+      s.y[k] = y - Pack(b.y);
+      s.z[k] = z - Pack(b.z);
+      s.r[k] = sqrt(squared_length(s.x[k], s.y[k], s.z[k]));
+    }
+    for (int k = 0; k < count; ++k) {
+      const Record& b = context.sorted[list[k]];
+      const Pack u = remaining_support(s.r[k], c.inverse_support);
+      const Pack volume(b.volume_term);
+      s.numerator[k] = mueller_numerator(u, c.pressure, volume, Pack(b.pressure_term));
+      s.denominator[k] = s.r[k] + c.tiny;
+      if constexpr (viscous) add_velocity(c, b, viscosity_laplacian(u) * volume, drag);
+    }
+    add_stretch(s, count, push);
   }
   const Opening<Pack> walls = opening(context, SQUALL_SPIKY, false, first_lanes(block.count()), x, y, z);
-  const auto total = [&](Pack pushed, Pack gradient, Pack dragged) {
+  const auto sum_up = [&](Pack pushed, Pack gradient, Pack dragged) {
     Pack force = fma(Pack(p.force_scale), pushed, pressure * gradient);
     if constexpr (viscous) force = fma(Pack(p.viscosity_scale), dragged, force);
     return force / density;
   };
-  return {total(push.x, walls.gradient_x, drag.x), total(push.y, walls.gradient_y, drag.y),
-          total(push.z, walls.gradient_z, drag.z)};
+  return {sum_up(push.x, walls.gradient_x, drag.x), sum_up(push.y, walls.gradient_y, drag.y),
+          sum_up(push.z, walls.gradient_z, drag.z)};
 }
 
 }  // namespace
