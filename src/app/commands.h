@@ -10,5 +10,6 @@ int command_run(const Options& options);
 int command_compare(const Options& options);
 int command_sweep(const Options& options);
 int command_validate(const Options& options);
+int command_stress(const Options& options);
 
 }  // namespace squall::app

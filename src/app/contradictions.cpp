@@ -13,8 +13,8 @@ namespace {
 /// The backends that take part as far as the options say.
 std::vector<std::string> backends_of(const Options& options) {
   if (!options.backends.empty()) return options.backends;
-  if (options.command == Command::compare || options.command == Command::sweep) return {"omp", "opencl"};
   if (options.command == Command::validate && options.device.empty()) return {"omp", "opencl", "reference"};
+  if (options.command != Command::run && options.command != Command::validate) return {"omp", "opencl"};
   return {options.device.empty() ? "omp" : "opencl"};
 }
 

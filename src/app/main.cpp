@@ -24,6 +24,8 @@ int run_command(const Options& options) {
       return command_sweep(options);
     case Command::validate:
       return command_validate(options);
+    case Command::stress:
+      return command_stress(options);
   }
   return k_exit_internal;
 }

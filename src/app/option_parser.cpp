@@ -7,6 +7,7 @@
 #include <cctype>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/checks.h"
@@ -26,7 +27,7 @@ struct Raw {
   std::string simd, precision, pressure, format = "squall";
 };
 
-constexpr const char* k_later_commands[] = {"agree", "study", "stress", "cost", "view"};
+constexpr const char* k_later_commands[] = {"agree", "study", "cost", "view"};
 constexpr const char* k_later_options[] = {"--fast-math", "--tolerance", "--max-error"};
 constexpr const char* k_checkpoint_options[] = {"--checkpoint", "--checkpoint-every", "--restart"};
 
@@ -247,6 +248,21 @@ CLI::App* add_validate(CLI::App& app, Options& options, Raw& raw) {
   return validate;
 }
 
+CLI::App* add_stress(CLI::App& app, Options& options, Raw& raw) {
+  CLI::App* stress = app.add_subcommand("stress", "The hard cases: what breaks solvers, and whether it breaks these");
+  list(add(*stress, "--pressure", raw.pressures, "Only these solvers: mueller, wcsph, dfsph (all)"), "NAME[,NAME]");
+  list(add(*stress, "--backend", raw.backends, "Only these; may be repeated (omp, opencl)"), "NAME[,NAME]");
+  add(*stress, "--device", options.device, "Only OpenCL devices with this index or part of the name")
+      ->type_name("DEVICE");
+  list(add(*stress, "--threads", options.threads, "Thread counts (all)"), "N[,N]")->check(CLI::Range(1, 1024));
+  add_solver_options(*stress, raw);
+  list(add(*stress, "--case", options.case_numbers, "Only these, by number (all)"), "N[,N]")->check(CLI::Range(1, 34));
+  stress->add_flag("--quick", options.quick, "Shorter runs, without the longest cases")->envname("SQUALL_QUICK");
+  add_output_options(*stress, options);
+  add_later_options(*stress);
+  return stress;
+}
+
 bool on_command_line(int argc, char** argv, const std::string& name) {
   return std::any_of(argv, argv + argc,
                      [&](const std::string& text) { return text == name || text.rfind(name + "=", 0) == 0; });
@@ -299,12 +315,12 @@ void understand(const Raw& raw, Options& options) {
 
 /// The parser would only say that a command is required.
 void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2) throw UsageError("a command is missing; there are devices, run, compare, sweep, validate");
+  if (argc < 2) throw UsageError("a command is missing; there are devices, run, compare, sweep, validate, stress");
   const std::string name = argv[1];
   const auto commands = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
   if (name.rfind('-', 0) != 0 && commands.empty())
     throw UsageError(
-        fmt::format("the command '{}' is unknown; there are devices, run, compare, sweep, validate", name));
+        fmt::format("the command '{}' is unknown; there are devices, run, compare, sweep, validate, stress", name));
 }
 
 /// The parser would read variables for the commands that are not carried out, too, into the same options.
@@ -333,6 +349,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
   CLI::App* compare = add_compare(app, options, raw);
   CLI::App* sweep = add_sweep(app, options, raw);
   CLI::App* validate = add_validate(app, options, raw);
+  CLI::App* stress = add_stress(app, options, raw);
   for (const char* name : k_later_commands)
     app.add_subcommand(name, "not in this version")->group("")->allow_extras()->set_help_flag();
   check_command(app, argc, argv);
@@ -346,14 +363,15 @@ std::optional<Options> parse_options(int argc, char** argv) {
   }
   for (const char* name : k_later_commands)
     if (app.got_subcommand(name)) throw UsageError(fmt::format("the command '{}' is not in this version", name));
-  options.command = *devices   ? Command::devices
-                    : *run     ? Command::run
-                    : *compare ? Command::compare
-                    : *sweep   ? Command::sweep
-                               : Command::validate;
-  if (!*devices) refuse_later_options(*run ? *run : *compare ? *compare : *sweep ? *sweep : *validate);
-  for (const CLI::App* command : {compare, sweep})
-    if (*command) refuse_later_checkpoints(*command);
+  const std::pair<CLI::App*, Command> commands[] = {{devices, Command::devices},   {run, Command::run},
+                                                    {compare, Command::compare},   {sweep, Command::sweep},
+                                                    {validate, Command::validate}, {stress, Command::stress}};
+  for (const auto& [command, name] : commands) {
+    if (!*command) continue;
+    options.command = name;
+    if (name != Command::devices) refuse_later_options(*command);
+    if (name == Command::compare || name == Command::sweep) refuse_later_checkpoints(*command);
+  }
   understand(raw, options);
   settle_length(argc, argv, options);
   const auto is_flag = [&](const std::string& option) { return on_command_line(argc, argv, option); };

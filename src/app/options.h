@@ -10,7 +10,7 @@
 
 namespace squall::app {
 
-enum class Command { devices, run, compare, sweep, validate };
+enum class Command { devices, run, compare, sweep, validate, stress };
 enum class Format { squall, google_benchmark };
 
 /// The command line and SQUALL_* variables, checked. Empty or absent: not given.
@@ -47,8 +47,9 @@ struct Options {
   Format format = Format::squall;
   bool quiet = false;
   bool print_scene = false;
-  bool quick = false;  ///< validate: coarser scenes
-  bool list = false;   ///< validate: says what there is
+  bool quick = false;             ///< validate, stress: coarser scenes, shorter runs
+  bool list = false;              ///< validate: says what there is
+  std::vector<int> case_numbers;  ///< stress; empty: all
 
   bool json_alone() const { return json == "-"; }  ///< stdout holds the JSON and nothing else
 };

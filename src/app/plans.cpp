@@ -302,6 +302,29 @@ Plans plan_validation(const Options& options, Pressure pressure, const std::vect
   return result;
 }
 
+Plans plan_stress(const Options& options, const std::vector<BackendInfo>& backends) {
+  Options one_each = options;
+  one_each.readbacks = {Readback::mapped};
+  const auto& omp = find_backend(backends, "omp").devices;
+  if (one_each.threads.empty() && !omp.empty()) one_each.threads = {omp.front().compute_units};
+  Plans plans;
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph}) {
+    const bool named = std::count(options.pressures.begin(), options.pressures.end(), pressure) > 0;
+    if (!options.pressures.empty() && !named) continue;
+    Workload workload;
+    workload.pressure = pressure;
+    try {
+      Plans found = plan_comparison(one_each, workload, backends);
+      plans.plans.insert(plans.plans.end(), found.plans.begin(), found.plans.end());
+      plans.left_out.insert(plans.left_out.end(), found.left_out.begin(), found.left_out.end());
+    } catch (const UsageError& refusal) {
+      if (named) throw;
+      plans.left_out.push_back(refusal.what());
+    }
+  }
+  return plans;
+}
+
 const DeviceInfo& device_of(const RunPlan& plan, const std::vector<BackendInfo>& backends) {
   const BackendInfo& backend = find_backend(backends, plan.backend);
   for (const auto& device : backend.devices)

@@ -34,6 +34,10 @@ Plans plan_sweep(const Options& options, const Workload& workload, const std::ve
 /// backend that cannot run at all throws DeviceError.
 Plans plan_validation(const Options& options, Pressure pressure, const std::vector<BackendInfo>& backends);
 
+/// The subjects of `squall stress`: omp with all threads and each OpenCL device, or what the options ask for, each with
+/// every pressure solver that it has, or the one asked for. Throws like plan_run.
+Plans plan_stress(const Options& options, const std::vector<BackendInfo>& backends);
+
 /// The device that a plan runs on.
 const DeviceInfo& device_of(const harness::RunPlan& plan, const std::vector<BackendInfo>& backends);
 

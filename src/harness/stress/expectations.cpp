@@ -1,0 +1,52 @@
+#include <array>
+
+#include "harness/stress/stress.h"
+
+namespace squall::harness {
+
+namespace {
+
+constexpr auto mueller = Pressure::mueller;
+constexpr auto wcsph = Pressure::wcsph;
+
+constexpr const char* k_creates_energy =
+    "density and forces use different kernels and half the pressure gradient, as printed in 2003: they derive from no "
+    "energy, so motion feeds on itself (docs/physics.md)";
+constexpr const char* k_elastic =
+    "an equation of state stores what it is compressed by, and gives it back at once: the start's energy is more than "
+    "what it weighs";
+constexpr const char* k_bounces =
+    "walls push back elastically and viscosity acts between neighbours alone: what is one particle thick bounces on";
+constexpr const char* k_clamped =
+    "one particle above the floor weighs too little to feel its pressure: it is the safety net that stops it";
+constexpr const char* k_pairs = "the kernel's slope falls toward its middle: wide kernels let particles pair up";
+constexpr const char* k_sound = "pressure passes on at the speed of sound: it is still there when the walls are gone";
+
+constexpr std::array k_known{
+    KnownFailure{6, wcsph, "", k_bounces},
+    KnownFailure{6, mueller, "", k_bounces},
+    KnownFailure{7, wcsph, "", "water settles some 5 % denser than the lattice it starts on, and goes on rearranging"},
+    KnownFailure{7, mueller, "", k_creates_energy},
+    KnownFailure{8, wcsph, "from", k_clamped},
+    KnownFailure{8, mueller, "from", k_clamped},
+    KnownFailure{9, mueller, "", k_creates_energy},
+    KnownFailure{10, wcsph, "energy", k_elastic},
+    KnownFailure{10, mueller, "energy", k_elastic},
+    KnownFailure{12, mueller, "smallest", k_creates_energy},
+    KnownFailure{13, wcsph, "share", k_pairs},
+    KnownFailure{13, mueller, "share", k_pairs},
+    KnownFailure{14, mueller, "c = 20", k_creates_energy},
+    KnownFailure{15, mueller, "", k_creates_energy},
+    KnownFailure{16, mueller, "energy", k_creates_energy},
+    KnownFailure{24, mueller, "", k_creates_energy},
+    KnownFailure{27, mueller, "gap of dx:", k_creates_energy},
+    KnownFailure{32, wcsph, "water around it", "nothing keeps a drop from being put into water; above it, it is not"},
+    KnownFailure{33, wcsph, "acceleration of one", k_sound},
+    KnownFailure{33, mueller, "acceleration of one", k_sound},
+};
+
+}  // namespace
+
+std::span<const KnownFailure> known_failures() { return k_known; }
+
+}  // namespace squall::harness
