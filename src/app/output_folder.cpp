@@ -7,6 +7,7 @@
 #include <charconv>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "app/earlier_rows.h"
 #include "core/checkpoint.h"
@@ -18,13 +19,10 @@ namespace squall::app {
 
 namespace {
 
-bool is_frame_file(const std::string& name) {
-  const std::string head = "frame_", tail = ".csv";
-  constexpr std::size_t k_digits = 6;  // at least: longer runs need more
-  if (name.size() < head.size() + k_digits + tail.size() || name.rfind(head, 0) != 0) return false;
-  const auto end = name.end() - static_cast<std::ptrdiff_t>(tail.size());
-  return std::string(end, name.end()) == tail && std::all_of(name.begin() + static_cast<std::ptrdiff_t>(head.size()),
-                                                             end, [](unsigned char c) { return std::isdigit(c) != 0; });
+std::string gauges_header(const harness::Gauges& gauges) {
+  std::ostringstream header;
+  harness::write_gauges_header(header, gauges);
+  return std::move(header).str();
 }
 
 std::uint64_t frame_of(const std::string& frame_file) {
@@ -35,6 +33,15 @@ std::uint64_t frame_of(const std::string& frame_file) {
 }
 
 }  // namespace
+
+bool OutputFolder::is_frame_file(const std::string& name) {
+  const std::string head = "frame_", tail = ".csv";
+  constexpr std::size_t k_digits = 6;  // at least: longer runs need more
+  if (name.size() < head.size() + k_digits + tail.size() || name.rfind(head, 0) != 0) return false;
+  const auto end = name.end() - static_cast<std::ptrdiff_t>(tail.size());
+  return std::string(end, name.end()) == tail && std::all_of(name.begin() + static_cast<std::ptrdiff_t>(head.size()),
+                                                             end, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
 
 std::vector<std::filesystem::path> OutputFolder::own_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files{folder / "scene.toml", folder / "frames.csv", folder / "series.csv",
@@ -53,7 +60,10 @@ OutputFolder::OutputFolder(const std::string& path, const Workload& workload, st
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
-  if (earlier_frames_ > 0) check_earlier_scene(workload);
+  if (earlier_frames_ > 0) {
+    check_earlier_scene(workload);
+    check_earlier_gauges(workload);
+  }
   remove_old_files();
   auto scene = open("scene.toml");
   scene << print_workload(workload) << std::flush;
@@ -75,6 +85,23 @@ void OutputFolder::check_earlier_scene(const Workload& workload) const {
       checkpoint_scene_text(workload.scene, workload.pressure))
     throw InputError(path_.string() +
                      ": holds the results of another scene, which this run does not go on from; name another --out");
+}
+
+/// Before anything is cut: rows of other gauges cannot go on, and must not stay beside rows that do.
+void OutputFolder::check_earlier_gauges(const Workload& workload) const {
+  const std::filesystem::path file = path_ / "gauges.csv";
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) || std::filesystem::is_empty(file, error)) return;
+  std::string header;
+  if (!workload.scene.gauges.empty()) header = gauges_header(harness::Gauges(workload.scene, workload.pressure));
+  std::ifstream rows(file);
+  std::string first;
+  std::getline(rows, first);
+  const bool is_whole = !rows.eof();  // else the run was killed while it wrote it
+  if (!header.empty() && (is_whole ? header == first + "\n" : header.starts_with(first))) return;
+  throw InputError(fmt::format("{}: its columns ({}) are not those of this scene's gauges ({}); name another --out",
+                               file.string(), first,
+                               header.empty() ? "it has none" : header.substr(0, header.size() - 1)));
 }
 
 void OutputFolder::remove_old_files() const {
@@ -106,9 +133,7 @@ void OutputFolder::open_series() {
 
 void OutputFolder::open_gauges(const Scene& scene, Pressure pressure) {
   gauges_.emplace(scene, pressure);
-  std::ostringstream header;
-  harness::write_gauges_header(header, *gauges_);
-  gauges_file_ = open_rows("gauges.csv", header.str());
+  gauges_file_ = open_rows("gauges.csv", gauges_header(*gauges_));
 }
 
 std::ofstream OutputFolder::open(const std::string& name) const {
@@ -152,6 +177,7 @@ void OutputFolder::save_particles(const harness::Run& run) const {
 void OutputFolder::flush() {
   frames_.flush();
   series_.flush();
+  gauges_file_.flush();
 }
 
 void OutputFolder::finish() {

@@ -19,11 +19,14 @@ namespace squall::app {
 class OutputFolder {
  public:
   /// A run that goes on from `earlier_frames` frames keeps what they left here, and throws InputError if that is of
-  /// another scene.
+  /// another scene or of other gauges.
   OutputFolder(const std::string& path, const Workload& workload, std::uint64_t earlier_frames = 0);
 
   /// Paths in this folder that are the names above, whether there or not; of frame_000000.csv only those there.
   static std::vector<std::filesystem::path> own_files(const std::filesystem::path& folder);
+
+  /// Whether a file's name is that of a saved frame: frame_000000.csv.
+  static bool is_frame_file(const std::string& name);
 
   /// Writes what follows from the frame that the run has just counted.
   void after_frame(const harness::Run& run, int save_every);
@@ -35,6 +38,7 @@ class OutputFolder {
 
  private:
   void check_earlier_scene(const Workload& workload) const;
+  void check_earlier_gauges(const Workload& workload) const;
   void remove_old_files() const;
   void open_series();
   void open_gauges(const Scene& scene, Pressure pressure);

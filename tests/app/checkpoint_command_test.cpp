@@ -149,6 +149,60 @@ TEST(CheckpointCommand, TheFolderOfResultsGoesOn) {
               HasSubstr("results of another scene"));
 }
 
+constexpr const char* k_level = "[[gauge]]\nname = 'level'\nposition_m = [0.1, 0, 0.1]\nkind = 'level'\n";
+
+/// A scene of the folder: the tiny one with what is added.
+std::string scene_with(const TemporaryFolder& folder, const std::string& name, const std::string& gauges) {
+  std::ofstream(folder / name) << text_of(k_tiny) << gauges;
+  return folder / name;
+}
+
+std::vector<std::string> gauge_run(const std::string& scene, const std::vector<std::string>& more) {
+  return with({"run", scene, "--quiet", "--backend", "reference", "--precision", "single"}, more);
+}
+
+TEST(CheckpointCommand, GaugesGoOnAsIfNothingHadHappened) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "run.sqc", scene = scene_with(folder, "gauges.toml", k_level);
+  ASSERT_EQ(squall(gauge_run(scene, {"--frames", "8", "--out", folder / "straight"})).code, 0);
+  ASSERT_EQ(squall(gauge_run(scene, {"--frames", "3", "--out", folder / "parts", "--checkpoint", file})).code, 0);
+  ASSERT_EQ(squall(gauge_run(scene, {"--frames", "5", "--out", folder / "parts", "--restart", file})).code, 0);
+  EXPECT_EQ(text_of(folder / "parts/gauges.csv"), text_of(folder / "straight/gauges.csv"));
+}
+
+// A checkpoint promises the rows up to it, those of gauges too: they are not in a buffer that dies with the process.
+TEST(CheckpointCommand, RowsOfGaugesAreWrittenBeforeTheirCheckpoint) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "run.sqc", scene = scene_with(folder, "gauges.toml", k_level);
+  const Program program(gauge_run(
+      scene, {"--frames", "10000000", "--out", folder / "out", "--checkpoint", file, "--checkpoint-every", "0.05"}));
+  const bool saved = appears([&] { return std::filesystem::exists(file); });
+  program.kill_now();
+  ASSERT_TRUE(saved);
+  const std::uint64_t frames = read_checkpoint(file).state.clock.frame;
+  const std::string text = text_of(folder / "out/gauges.csv");
+  EXPECT_GE(static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')), frames + 1);  // and the header
+}
+
+// What cannot go on is refused before anything of it is cut off.
+TEST(CheckpointCommand, AFolderWithOtherGaugesIsLeftAlone) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "run.sqc", scene = scene_with(folder, "gauges.toml", k_level);
+  ASSERT_EQ(squall(gauge_run(scene, {"--frames", "2", "--checkpoint", file})).code, 0);
+  ASSERT_EQ(squall(gauge_run(scene, {"--frames", "5", "--out", folder / "out"})).code, 0);
+  const std::string rows = text_of(folder / "out/series.csv"), saved_scene = text_of(folder / "out/scene.toml");
+  const std::string other = std::string(k_level).replace(std::string(k_level).find("level"), 5, "depth");
+  for (const std::string& gauges : {std::string(), other, k_level + other}) {
+    const std::string with_others = scene_with(folder, "others.toml", gauges);
+    const Outcome outcome =
+        squall(gauge_run(with_others, {"--frames", "1", "--out", folder / "out", "--restart", file}));
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("are not those of this scene's gauges"));
+    EXPECT_EQ(text_of(folder / "out/series.csv"), rows);
+    EXPECT_EQ(text_of(folder / "out/scene.toml"), saved_scene);
+  }
+}
+
 TEST(CheckpointCommand, OtherRunsAreRefusedByName) {
   const TemporaryFolder folder;
   const std::string file = folder / "run.sqc";
@@ -184,6 +238,7 @@ TEST(CheckpointCommand, ItsOptionsAreChecked) {
   usage(reference_run({"--checkpoint", k_tiny}), "would overwrite");
   usage(with({"run", k_tiny, "--json", folder / "c"}, {"--checkpoint", folder / "c"}), "name the same file");
   usage(reference_run({"--out", folder / "out", "--checkpoint", folder / "out/series.csv"}), "name the same file");
+  usage({"run", k_tiny, "--json", folder / "c.part", "--checkpoint", folder / "c"}, "FILE.part name the same file");
   std::ofstream(folder / "c") << "mine";
   usage({"run", k_tiny, "--json", folder / "c", "--restart", folder / "c"}, "would overwrite");
   EXPECT_EQ(text_of(folder / "c"), "mine");
