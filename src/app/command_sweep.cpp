@@ -102,6 +102,8 @@ int command_sweep(const Options& options) {
   const Workload workload = load_workload(options);
   const auto backends = list_backends();
   Plans plans = plan_sweep(options, workload, backends);
+  const auto ratio = ratio_notes(workload.scene);
+  plans.left_out.insert(plans.left_out.end(), ratio.begin(), ratio.end());
   print_notes(plans.left_out, options.quiet);
   if (plans.plans.empty()) throw DeviceError("no backend or device to sweep can run; see squall devices");
 

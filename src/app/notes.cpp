@@ -33,8 +33,16 @@ std::string rain_note(const Scene& scene, const Scene::Rain& rain) {
 
 }  // namespace
 
+std::vector<std::string> ratio_notes(const Scene& scene) {
+  if (scene.fluid.support_ratio <= k_pairing_ratio) return {};
+  return {fmt::format(
+      "support_ratio = {}: above {} particles come to lie in pairs, so that the water is coarser than its spacing says "
+      "and costs more; 2 is what the solvers are made for",
+      scene.fluid.support_ratio, k_pairing_ratio)};
+}
+
 std::vector<std::string> scene_notes(const Scene& scene) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = ratio_notes(scene);
   for (const auto& rain : scene.rains) notes.push_back(rain_note(scene, rain));
   return notes;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/terminal.h"
+#include "core/errors.h"
 
 namespace squall::app {
 
@@ -16,6 +17,8 @@ Workload load_workload(const Options& options) {
   if (options.dt_max_s) scene.solver.dt_max_s = *options.dt_max_s;
   validate(scene);
   workload.pressure = options.pressure ? *options.pressure : scene.solver.pressure.value_or(Pressure::wcsph);
+  if (const std::string problem = ratio_problem(scene, workload.pressure); !problem.empty())
+    throw InputError(options.scene + ": " + problem);  // before anything is written
   workload.info = {scene.name, scene_hash(scene), particle_capacity(scene)};
   // Stored scenes must find their particle files from any folder.
   const auto folder = std::filesystem::absolute(options.scene).parent_path();

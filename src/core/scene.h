@@ -108,6 +108,15 @@ struct Scene {
   double speed_of_sound() const;
 };
 
+/// H/dx above which particles come to lie in pairs: the cubic spline pushes hardest at H/3 and less where two are
+/// closer still (measured: docs/scenes.md).
+inline constexpr double k_pairing_ratio = 2.1;
+/// Largest H/dx of dfsph: beyond it pairs gain energy until the water flies apart (measured: docs/scenes.md).
+inline constexpr double k_largest_dfsph_ratio = 2.2;
+
+/// Why a pressure solver cannot run a scene's support ratio; empty if it can.
+std::string ratio_problem(const Scene& scene, Pressure pressure);
+
 /// Reads a scene file. Throws InputError with file:line:column for what cannot be read, an unknown key (with the
 /// nearest valid name), a wrong type, a value out of range (with value and range), a domain without room.
 Scene load_scene(const std::string& path);

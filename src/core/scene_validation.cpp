@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -86,6 +87,9 @@ class Checker {
       fail({"solver"}, "xsph",
            "xsph = " + number_text(scene_.solver.xsph) + " needs pressure dfsph, not " + to_string(*pressure) +
                "; remove it or write 0");
+    if (pressure)
+      if (const std::string problem = ratio_problem(scene_, *pressure); !problem.empty())
+        fail({"fluid"}, "support_ratio", problem);
     if (scene_.solver.negative_pressure && pressure != Pressure::mueller)
       fail({"solver"}, "negative_pressure", "negative_pressure = true needs pressure = \"mueller\" in [solver]");
   }
@@ -272,7 +276,22 @@ class Checker {
         fail(section, "name",
              "gauges " + std::to_string(i + 1) + " and " + std::to_string(section.index) + " are both called '" +
                  gauge.name + "'; give each its own name");
-    if (gauge.name == "time_s") fail(section, "name", "a gauge cannot be called time_s; that is the first column");
+    const auto columns = columns_of(gauge);
+    for (const auto& column : columns)
+      if (column == "time_s")
+        fail(section, "name", "a gauge cannot be called time_s; that is the first column of gauges.csv");
+    for (std::size_t i = 0; i + 1 < section.index; ++i)
+      for (const auto& other : columns_of(scene_.gauges[i]))
+        if (std::find(columns.begin(), columns.end(), other) != columns.end())
+          fail(section, "name",
+               "gauges " + std::to_string(i + 1) + " ('" + scene_.gauges[i].name + "') and " +
+                   std::to_string(section.index) + " ('" + gauge.name + "') both have a column '" + other +
+                   "' (a velocity has three, with _x, _y and _z); give one of them another name");
+  }
+
+  static std::vector<std::string> columns_of(const Scene::Gauge& gauge) {
+    if (gauge.kind != "velocity") return {gauge.name};
+    return {gauge.name + "_x", gauge.name + "_y", gauge.name + "_z"};
   }
 
   void check_count() const {
@@ -297,6 +316,13 @@ class Checker {
 void check_scene(const Scene& scene, const Locate& locate) { Checker(scene, locate).check(); }
 
 }  // namespace scene_keys
+
+std::string ratio_problem(const Scene& scene, Pressure pressure) {
+  if (pressure != Pressure::dfsph || scene.fluid.support_ratio <= k_largest_dfsph_ratio) return "";
+  return "support_ratio = " + scene_keys::number_text(scene.fluid.support_ratio) +
+         " is too large for dfsph: particles pair up and the water flies apart; allowed is up to " +
+         scene_keys::number_text(k_largest_dfsph_ratio) + ", or another pressure solver";
+}
 
 void validate(const Scene& scene) {
   scene_keys::check_scene(scene, [](const scene_keys::SectionName&, const std::string&) { return std::string(); });

@@ -77,6 +77,8 @@ Solver::Solver(Scene scene, Settings settings) : scene_(std::move(scene)), setti
   if (scene_.solver.xsph > 0.0 && settings_.pressure != Pressure::dfsph)
     throw InputError("xsph = " + std::to_string(scene_.solver.xsph) + " in [solver] needs pressure dfsph, not " +
                      to_string(settings_.pressure) + "; remove it or write 0");
+  if (const std::string problem = ratio_problem(scene_, settings_.pressure); !problem.empty())
+    throw InputError(problem);
   params_ = make_params(scene_, settings_.pressure);
   boxes_ = make_boxes(scene_, settings_.pressure);
   held_groups_ = make_held_groups(scene_);

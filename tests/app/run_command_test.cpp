@@ -142,6 +142,28 @@ TEST(RunCommand, BadScenesAreTheCallersFault) {
   EXPECT_NE(bad.err.find("bad.toml:"), std::string::npos) << bad.err;
 }
 
+// Beyond 2.1 particles pair up, which a reader must know; beyond 2.2 dfsph's water flies apart, which nobody wants.
+TEST(RunCommand, SupportRatiosThatHarmAreSaid) {
+  const TemporaryFolder folder;
+  std::string text = text_of(k_tiny);
+  const auto run_at = [&](const std::string& ratio, const std::string& pressure) {
+    std::string scene = text;
+    scene.insert(scene.find("spacing_m"), "support_ratio = " + ratio + "\n");
+    std::ofstream(folder / "scene.toml") << scene;
+    return squall({"run", folder / "scene.toml", "--frames", "1", "--pressure", pressure, "--out", folder / "out"});
+  };
+  const std::string pairs = "lie in pairs";
+  const Outcome refused = run_at("2.21", "dfsph");
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find("support_ratio = 2.21 is too large for dfsph"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  for (const char* pressure : {"wcsph", "mueller", "dfsph"}) {
+    EXPECT_NE(run_at("2.2", pressure).err.find(pairs), std::string::npos) << pressure;
+    EXPECT_EQ(run_at("2.1", pressure).err.find(pairs), std::string::npos) << pressure;
+  }
+  EXPECT_EQ(run_at("4", "wcsph").code, 0);
+}
+
 TEST(RunCommand, ADeviceThatIsNotThereIsSaid) {
   const Outcome outcome = squall({"run", k_tiny, "--backend", "opencl", "--frames", "1"},
                                  {{"OCL_ICD_VENDORS", "/no/such/folder"}, {"OCL_ICD_FILENAMES", ""}});

@@ -229,6 +229,8 @@ const BadScene k_together[] = {
      "31:10: stop_s = 2 in [[rain]] 1 is not after start_s = 2"},
     {"negative_pressure", "cfl = 0.4", "negative_pressure = true",
      "8:21: negative_pressure = true needs pressure = \"mueller\" in [solver]"},
+    {"dfsph_sees_too_far", "0.1", "0.1\nsupport_ratio = 2.3\n[solver]\npressure = 'dfsph'",
+     "7:17: support_ratio = 2.3 is too large for dfsph"},
     {"xsph", "cfl = 0.4", "pressure = 'wcsph'\nxsph = 0.05", "9:8: xsph = 0.05 needs pressure dfsph, not wcsph"},
 };
 
@@ -248,6 +250,10 @@ const BadScene k_gauges[] = {
      "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 0.5]\nkind = 'level'\n"
      "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 0.5]\nkind = 'pressure'\n",
      "36:8: gauges 1 and 2 are both called 'g'"},
+    {"same_column", "",
+     "[[gauge]]\nname = 'g_y'\nposition_m = [1, 1, 0.5]\nkind = 'level'\n"
+     "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 0.5]\nkind = 'velocity'\n",
+     "36:8: gauges 1 ('g_y') and 2 ('g') both have a column 'g_y'"},
     {"outside", "", "[[gauge]]\nname = 'g'\nposition_m = [1, 1, 1.5]\nkind = 'velocity'\n",
      "33:14: gauge 'g' at (1, 1, 1.5) lies outside the container ("},
 };

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/nearest_name.h"
@@ -67,6 +68,7 @@ void set_defaults(Case& result) {
   result.solvers = {Pressure::dfsph, Pressure::wcsph, Pressure::mueller};
   if (scene.solver.xsph > 0.0) result.solvers = {Pressure::dfsph};
   if (scene.solver.pressure) result.solvers = {*scene.solver.pressure};
+  std::erase_if(result.solvers, [&](Pressure pressure) { return !ratio_problem(scene, pressure).empty(); });
 }
 
 Case case_from_table(const std::string& scene_path, const std::string& table_path, double tolerance) {
@@ -75,6 +77,9 @@ Case case_from_table(const std::string& scene_path, const std::string& table_pat
   result.name = result.scene.name;
   result.title = "scene " + result.name + " against a table";
   result.source = table_path;
+  result.files = {scene_path, table_path};
+  for (const auto& file : result.scene.particle_files)
+    result.files.push_back((std::filesystem::path(scene_path).parent_path() / file.file).string());
   set_defaults(result);
   const auto names = quantity_names(result.scene);
   double latest = 1.0 / result.scene.time.frame_rate_hz;
@@ -101,6 +106,15 @@ Case case_from_table(const std::string& scene_path, const std::string& table_pat
   return result;
 }
 
-Case load_case(const std::string& path) { return parse_case(text_of_file(path), path, text_of_file); }
+Case load_case(const std::string& path) {
+  std::vector<std::string> files;
+  const FileReader read = [&](const std::string& file) {
+    files.push_back(file);
+    return text_of_file(file);
+  };
+  Case result = parse_case(read(path), path, read);
+  result.files = std::move(files);
+  return result;
+}
 
 }  // namespace squall::harness

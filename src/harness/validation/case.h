@@ -63,6 +63,7 @@ struct Case {
   double duration_s = 0.0;
   int samples_per_frame = 1;  ///< states looked at per frame of the scene
   std::vector<Check> checks;
+  std::vector<std::string> files;  ///< it was read from; none of a case that comes with squall
 };
 
 /// What a case is where its file says nothing: all solvers that can run its scene, for as long as that says, with

@@ -73,6 +73,8 @@ class CaseReader {
       const Pressure pressure = pressure_at(reader, name);
       if (std::count(result.solvers.begin(), result.solvers.end(), pressure) > 0)
         reader.fail_at(*name.node, name.text + " is listed twice in solvers");
+      if (const std::string problem = ratio_problem(result.scene, pressure); !problem.empty())
+        reader.fail_at(*name.node, problem);
       result.solvers.push_back(pressure);
     }
     if (reader.has("solvers") && result.solvers.empty()) reader.fail("solvers", "solvers is empty; name at least one");
