@@ -74,6 +74,7 @@ void add_jobs(const Options& options, harness::Case what, const std::vector<Back
   const std::size_t index = jobs.results.size();
   if (options.particles && options.cases.empty() && !what.scene.particle_files.empty())
     note_once(jobs.notes, what.name + " has its particles from a file and runs as written, whatever --particles says");
+  for (const auto& note : ratio_notes(what.scene)) note_once(jobs.notes, what.name + ": " + note);
   for (const Pressure pressure : what.solvers) {
     const auto& asked = options.pressures;
     if (!asked.empty() && std::find(asked.begin(), asked.end(), pressure) == asked.end()) continue;
@@ -84,23 +85,40 @@ void add_jobs(const Options& options, harness::Case what, const std::vector<Back
   jobs.results.push_back({std::move(what), {}});
 }
 
+/// Results and files are told apart by the name.
+void refuse_twin(const harness::Case& what, const std::vector<harness::CaseResult>& others) {
+  for (const auto& other : others)
+    if (other.what.name == what.name)
+      throw UsageError(
+          fmt::format("two cases are called {}; rename a file, or validate them one after the other", what.name));
+}
+
 Jobs plan_jobs(const Options& options, const std::vector<BackendInfo>& backends) {
   Jobs jobs;
   const auto names = options.cases.empty() ? builtin_case_names() : options.cases;
-  for (const auto& name : names) add_jobs(options, case_named(options, name), backends, jobs);
+  for (const auto& name : names) {
+    harness::Case what = case_named(options, name);
+    refuse_twin(what, jobs.results);
+    add_jobs(options, std::move(what), backends, jobs);
+  }
   if (jobs.jobs.empty())
     throw UsageError("no case runs with these solvers and backends" +
                      (jobs.notes.empty() ? std::string("; the cases have others") : ": " + jobs.notes.front()));
   return jobs;
 }
 
-void protect_cases(const Options& options) {
-  for (const auto& name : options.cases) {
-    std::error_code error;
-    if (!options.json.empty() && !options.json_alone() && std::filesystem::equivalent(options.json, name, error) &&
-        !error)
-      throw UsageError("--json would overwrite " + name + ", which is read; name another place");
+/// Neither --json nor what --out writes may take the place of what a case is read from.
+void protect_cases(const Options& options, const Jobs& jobs) {
+  std::vector<std::string> inputs;
+  for (const auto& result : jobs.results)
+    inputs.insert(inputs.end(), result.what.files.begin(), result.what.files.end());
+  std::vector<std::filesystem::path> out_files;
+  if (!options.out.empty()) {
+    out_files = ValidationFolder::own_files(options.out);
+    for (const auto& job : jobs.jobs)
+      out_files.push_back(ValidationFolder::series_file(options.out, jobs.results[job.result].what.name, job.plan));
   }
+  protect_inputs(options, std::move(inputs), out_files);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -168,7 +186,7 @@ int command_validate(const Options& options) {
   const auto backends = list_backends();
   Jobs jobs = plan_jobs(options, backends);
   print_notes(jobs.notes, options.quiet);
-  protect_cases(options);
+  protect_cases(options, jobs);
   const Interrupt interrupt;
   std::optional<ValidationFolder> folder;
   if (!options.out.empty()) {

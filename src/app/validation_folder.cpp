@@ -11,6 +11,15 @@
 
 namespace squall::app {
 
+std::vector<std::filesystem::path> ValidationFolder::own_files(const std::filesystem::path& folder) {
+  return {folder / "report.html", folder / "validate.json"};
+}
+
+std::filesystem::path ValidationFolder::series_file(const std::filesystem::path& folder, const std::string& case_name,
+                                                    const harness::RunPlan& plan) {
+  return folder / fmt::format("{}_{}_{}.csv", case_name, to_string(plan.settings.pressure), plan.backend);
+}
+
 ValidationFolder::ValidationFolder(const std::string& path) : path_(path) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
@@ -24,8 +33,7 @@ void ValidationFolder::add(const harness::CaseResult& result) {
     std::vector<double> times;
     if (const auto* column = run.series.find("x_cm_m")) times = column->time_s;
     harness::write_series(text, run.series, times);
-    write(fmt::format("{}_{}_{}.csv", result.what.name, to_string(run.plan.settings.pressure), run.plan.backend),
-          text.str());
+    write(series_file("", result.what.name, run.plan).string(), text.str());
   }
   for (const auto& plot : harness::validation_plots(result)) {
     pictures_.emplace_back(plot.name, harness::draw_svg(plot));

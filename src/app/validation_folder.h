@@ -15,6 +15,12 @@ class ValidationFolder {
  public:
   explicit ValidationFolder(const std::string& path);
 
+  /// Paths in this folder that every validation writes.
+  static std::vector<std::filesystem::path> own_files(const std::filesystem::path& folder);
+  /// Where the time series of a case's run goes.
+  static std::filesystem::path series_file(const std::filesystem::path& folder, const std::string& case_name,
+                                           const harness::RunPlan& plan);
+
   /// Writes the time series and the plots of a case. Throws DeviceError if gnuplot does not draw.
   void add(const harness::CaseResult& result);
   /// Writes validate.json and report.html.

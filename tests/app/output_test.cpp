@@ -75,6 +75,31 @@ TEST(Output, ParticleFilesAreNeverOverwritten) {
   }
 }
 
+TEST(Output, TwoOptionsNeverWriteOneFile) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const auto refused = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run",          k_tiny, "--frames", "1",      "--quiet",
+                                       "--save-every", "1",    "--out",    out + "/"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = squall(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("name the same file"), std::string::npos) << outcome.err;
+  };
+  // Whether the file is there or not, and however it is written.
+  for (int round = 0; round < 2; ++round) {
+    refused({"--json", folder / "a", "--trace", folder / "./a"});
+    refused({"--json", folder / "out/frames.csv"});
+    refused({"--trace", folder / "out/../out/gauges.csv"});
+    refused({"--checkpoint", folder / "out/frame_000000.csv"});
+    refused({"--json", folder / "out/frame_000007.csv"});
+    ASSERT_EQ(squall({"run", k_tiny, "--frames", "1", "--quiet", "--out", out, "--json", folder / "a"}).code, 0);
+  }
+  std::filesystem::create_hard_link(folder / "a", folder / "b");
+  refused({"--json", folder / "a", "--trace", folder / "b"});
+  EXPECT_EQ(squall({"run", k_tiny, "--frames", "1", "--quiet", "--out", out, "--json", out + "/mine.json"}).code, 0);
+}
+
 TEST(Output, PlacesThatCannotBeWrittenAreFoundBeforeTheFirstFrame) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "mine";

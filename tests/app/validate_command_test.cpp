@@ -126,6 +126,64 @@ TEST_F(ValidateCommand, SaysWhatItCannotDo) {
   EXPECT_EQ(validate({path("case.toml"), "--fast-math"}).code, 2);
 }
 
+TEST_F(ValidateCommand, DestroysNothingThatItReads) {
+  write("table.csv", "time_s,y_cm_m\n0,0.75\n");
+  write_case("table = 'table.csv'\ntolerance = 1e-5\n");
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
+    arguments.push_back("--quiet");
+    const Outcome outcome = validate(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(why));
+  };
+  for (const char* file : {"case.toml", "fall.toml", "table.csv"})
+    refused({path("case.toml"), "--json", path(file)}, "--json would overwrite");
+  const std::vector<std::string> expected{path("fall.toml"), "--expected", path("table.csv"), "--tolerance", "1"};
+  for (const char* file : {"fall.toml", "table.csv"}) {
+    auto arguments = expected;
+    arguments.insert(arguments.end(), {"--json", path(file)});
+    refused(arguments, "--json would overwrite");
+  }
+  std::filesystem::copy(path("table.csv"), path("fall_wcsph_omp.csv"));
+  refused({path("fall.toml"), "--expected", path("fall_wcsph_omp.csv"), "--tolerance", "1", "--out", path("")},
+          "--out would overwrite");
+  refused({path("case.toml"), "--out", path("out"), "--json", path("out/report.html")}, "name the same file");
+  EXPECT_EQ(text_of(path("table.csv")), "time_s,y_cm_m\n0,0.75\n");
+  EXPECT_EQ(text_of(path("fall_wcsph_omp.csv")), text_of(path("table.csv")));
+}
+
+TEST_F(ValidateCommand, TellsCasesApartByTheirNames) {
+  write_case("formula = 'ballistic'\ntolerance = 1e-5\n");
+  std::filesystem::create_directory(path("other"));
+  for (const char* file : {"case.toml", "fall.toml"})
+    std::filesystem::copy(path(file), path("other/" + std::string(file)));
+  const Outcome outcome = validate({path("case.toml"), path("other/case.toml")});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("two cases are called case"));
+}
+
+TEST_F(ValidateCommand, SaysHowToReachTimesOutsideOfTheRun) {
+  const std::string points = "tolerance = 1\npoints = [[";
+  write_case(points + "-1, 0.75]]\n");
+  EXPECT_THAT(validate({path("case.toml"), "--pressure", "wcsph"}).out, HasSubstr("set from_s"));
+  write_case(points + "9, 0.75]]\n");
+  EXPECT_THAT(validate({path("case.toml"), "--pressure", "wcsph"}).out, HasSubstr("lengthen duration_s"));
+}
+
+// Above 2.2 dfsph is no choice: not by default, and not by name.
+TEST_F(ValidateCommand, LeavesDfsphOutWhereItCannotRun) {
+  std::string scene = text_of(path("fall.toml"));
+  write("fall.toml", scene.replace(scene.find("spacing_m"), 0, "support_ratio = 2.5\n"));
+  write("table.csv", "time_s,y_cm_m\n0,0.75\n");
+  const Outcome table = validate({path("fall.toml"), "--expected", path("table.csv"), "--tolerance", "1"});
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_THAT(table.out, testing::Not(HasSubstr("dfsph")));
+  EXPECT_THAT(table.err, HasSubstr("particles come to lie in pairs"));
+  write_case("value = 0\ntolerance = 1\n");
+  const Outcome named = validate({path("case.toml")});
+  EXPECT_EQ(named.code, 3);
+  EXPECT_THAT(named.err, HasSubstr("case.toml:5:21: support_ratio = 2.5 is too large for dfsph"));
+}
+
 TEST_F(ValidateCommand, RunWritesGauges) {
   const Outcome outcome = squall({"run", path("fall.toml"), "--frames", "3", "--out", path("out"), "--quiet"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;

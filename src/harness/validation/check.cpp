@@ -194,6 +194,10 @@ std::string span_text(const Column& column) {
                                : fmt::format("{:.4g} to {:.4g} s", column.time_s.front(), column.time_s.back());
 }
 
+bool starts_before(const ExpectedPoint& first, const Column& column) {
+  return !column.time_s.empty() && first.time_s < column.time_s.front();
+}
+
 }  // namespace
 
 double tolerance_of(const Check& check, double spacing_m) {
@@ -230,9 +234,9 @@ Finding judge(const Check& check, const Scene& scene, const TimeSeries& series) 
   finding.points = compare(expected, *measured, finding.shift_s.value_or(0.0));
   if (finding.points.empty() || (check.largest_shift_s && !finding.shift_s)) {
     finding.points.clear();
-    finding.problem =
-        fmt::format("expected values reach from {:.4g} to {:.4g} s, {} has values over {}: lengthen duration_s",
-                    expected.front().time_s, expected.back().time_s, check.quantity, span_text(*measured));
+    finding.problem = fmt::format("expected values reach from {:.4g} to {:.4g} s, {} has values over {}: {}",
+                                  expected.front().time_s, expected.back().time_s, check.quantity, span_text(*measured),
+                                  starts_before(expected.front(), *measured) ? "set from_s" : "lengthen duration_s");
     return finding;
   }
   finding.error = 0.0;
