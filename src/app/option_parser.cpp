@@ -85,7 +85,8 @@ void add_particles(CLI::App& command, Options& options) {
 
 void add_water_options(CLI::App& command, Options& options, Raw& raw) {
   command.add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
-  add(command, "--pressure", raw.pressure, "mueller or wcsph; else what the scene says, else wcsph")->type_name("NAME");
+  add(command, "--pressure", raw.pressure, "wcsph, mueller or dfsph; else what the scene says, else wcsph")
+      ->type_name("NAME");
   add(command, "--dt-max", options.dt_max_s, "Longest sub-step [s]; else the scene's")
       ->check(within(1e-7, 1.0))
       ->type_name("S");
@@ -338,9 +339,9 @@ std::optional<Options> parse_options(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 fine, 1 internal error, 2 usage, 3 scene, checkpoint or output file, 4 device,\n"
-      "5 results disagree, 6 unstable or not finite, 7 budget exceeded, 130 interrupted.\n"
-      "Every option --some-name has a variable SQUALL_SOME_NAME; the option wins, and the variable wins over the "
-      "scene.");
+      "5 results disagree or a verdict is unexpected, 6 unstable or not finite, 7 budget exceeded, 130 interrupted.\n"
+      "Every option --some-name that takes a value has a variable SQUALL_SOME_NAME, and so have --quiet, --quick and "
+      "--tune; the option wins, and the variable wins over the scene.");
   Options options;
   Raw raw;
   CLI::App* devices = app.add_subcommand("devices", "What can run here, and why something cannot");

@@ -75,6 +75,10 @@ std::vector<std::string> apply_tuning(const Options& options, const Workload& wo
             fmt::format("{} with tuned work sizes: {}; --tuning none goes without", plan.label, to_string(*found)));
       } else {
         known[key] = {plan.settings.simd, plan.settings.work};
+        if (has_table && !options.tuning.empty() && !options.tune)
+          notes.push_back(fmt::format(
+              "{} runs with sizes by the device: {} {}; --tune measures", plan.label, table.path(),
+              table.is_there() ? "has no work sizes for it and a scene of this kind and size" : "is no tuning table"));
       }
     }
     plan.settings.simd = known[key].simd;

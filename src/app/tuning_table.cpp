@@ -88,6 +88,8 @@ std::string TuningTable::default_path() {
   return home != nullptr && *home != '\0' ? std::string(home) + "/.cache/squall/tuning.tsv" : "";
 }
 
+bool TuningTable::is_there() const { return !read(path_).empty(); }
+
 std::optional<harness::WorkChoice> TuningTable::find(const std::string& key) const {
   const Entries entries = read(path_);
   const auto found = entries.find(key);

@@ -19,6 +19,9 @@ class TuningTable {
 
   const std::string& path() const { return path_; }
 
+  /// Whether the file is one that find() reads: there, whole and of this version.
+  bool is_there() const;
+
   std::optional<harness::WorkChoice> find(const std::string& key) const;
 
   /// Adds or replaces. Throws InputError if the file cannot be written; the old one is then as it was.

@@ -34,13 +34,17 @@ TEST(TuneOption, MeasuresRemembersAndChangesNoBit) {
   const Outcome later = run_tiny({"--tuning", table});
   EXPECT_FALSE(says(plain, "tuned")) << plain.err;
   EXPECT_FALSE(says(before, "tuned")) << before.err;
+  EXPECT_TRUE(says(before, table + " is no tuning table")) << before.err;
   EXPECT_TRUE(says(tuned, "tuned: ") && says(tuned, "ms per sub-step")) << tuned.err;
   EXPECT_TRUE(says(later, "with tuned work sizes: ")) << later.err;
   const nlohmann::json untuned = {{"group", 0}, {"parts", 0}, {"chunks", 0}};
   EXPECT_EQ(row_of(plain).at("work_sizes"), untuned);
   EXPECT_EQ(row_of(later).at("work_sizes"), row_of(tuned).at("work_sizes"));
   for (const Outcome* outcome : {&before, &tuned, &later}) EXPECT_EQ(hash_of(*outcome), hash_of(plain));
-  EXPECT_FALSE(says(run_tiny({"--tuning", table, "--particles", "500"}), "tuned")) << "of another size class";
+  const Outcome larger = run_tiny({"--tuning", table, "--particles", "500"});
+  EXPECT_FALSE(says(larger, "tuned")) << "of another size class";
+  EXPECT_TRUE(says(larger, "has no work sizes for it")) << larger.err;
+  EXPECT_EQ(run_tiny({"--tune", "--tuning", table, "--json", folder / "deep/../deep/er/table.tsv"}).code, 2);
 }
 
 TEST(TuneOption, ADamagedTableHoldsNothing) {
