@@ -45,6 +45,8 @@ double time_of(std::string_view row, std::size_t column) {
 bool keep_rows_until(const std::filesystem::path& file, const std::string& header, double time_s) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return false;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string() + ": cannot be gone on with: it is no file; name another --out");
   const std::string text = read_text_file(file.string());
   if (header.starts_with(text)) return false;  // nothing was written, or not even the first line
   if (!text.starts_with(header))

@@ -91,7 +91,10 @@ void OutputFolder::check_earlier_scene(const Workload& workload) const {
 void OutputFolder::check_earlier_gauges(const Workload& workload) const {
   const std::filesystem::path file = path_ / "gauges.csv";
   std::error_code error;
-  if (!std::filesystem::exists(file, error) || std::filesystem::is_empty(file, error)) return;
+  if (!std::filesystem::exists(file, error)) return;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string() + ": cannot be gone on with: it is no file; name another --out");
+  if (std::filesystem::is_empty(file, error)) return;
   std::string header;
   if (!workload.scene.gauges.empty()) header = gauges_header(harness::Gauges(workload.scene, workload.pressure));
   std::ifstream rows(file);

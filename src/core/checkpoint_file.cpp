@@ -76,7 +76,13 @@ Checkpoint read_checkpoint(const std::string& path) {
   return decode_checkpoint(bytes, path);
 }
 
-CheckpointFile::CheckpointFile(std::string path) : path_(std::move(path)), part_(path_ + ".part") {}
+CheckpointFile::CheckpointFile(std::string path) : path_(std::move(path)) {
+  // Through a link its target is replaced: the link keeps pointing where it did.
+  std::error_code error;
+  const auto target = std::filesystem::canonical(path_, error);
+  if (!error && std::filesystem::is_symlink(path_, error)) path_ = target.string();
+  part_ = path_ + ".part";
+}
 
 CheckpointFile::~CheckpointFile() { drop(); }
 

@@ -203,6 +203,30 @@ TEST(CheckpointCommand, AFolderWithOtherGaugesIsLeftAlone) {
   }
 }
 
+TEST(CheckpointCommand, ALinkKeepsPointingAtTheCheckpoint) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(squall(reference_run({"--frames", "1", "--checkpoint", folder / "real.sqc"})).code, 0);
+  std::filesystem::create_symlink(folder / "real.sqc", folder / "link.sqc");
+  ASSERT_EQ(squall(reference_run({"--frames", "2", "--checkpoint", folder / "link.sqc"})).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.sqc"));
+  EXPECT_EQ(read_checkpoint(folder / "real.sqc").state.clock.frame, 2u);
+}
+
+// A device would never end, a pipe without a writer never begin.
+TEST(CheckpointCommand, RowsThatAreNoFileAreRefused) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "run.sqc", scene = scene_with(folder, "gauges.toml", k_level);
+  ASSERT_EQ(squall(gauge_run(scene, {"--frames", "2", "--checkpoint", file, "--out", folder / "out"})).code, 0);
+  for (const char* name : {"out/gauges.csv", "out/series.csv"}) {
+    std::filesystem::rename(folder / name, folder / "rows");
+    std::filesystem::create_symlink("/dev/full", folder / name);
+    const Outcome outcome = squall(gauge_run(scene, {"--frames", "1", "--restart", file, "--out", folder / "out"}));
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("it is no file"));
+    std::filesystem::rename(folder / "rows", folder / name);
+  }
+}
+
 TEST(CheckpointCommand, OtherRunsAreRefusedByName) {
   const TemporaryFolder folder;
   const std::string file = folder / "run.sqc";

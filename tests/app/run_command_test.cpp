@@ -164,6 +164,12 @@ TEST(RunCommand, SupportRatiosThatHarmAreSaid) {
   EXPECT_EQ(run_at("4", "wcsph").code, 0);
 }
 
+TEST(RunCommand, ADeviceIsNoScene) {
+  const Outcome outcome = squall({"run", "/dev/zero"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("it is a device"), std::string::npos) << outcome.err;
+}
+
 TEST(RunCommand, ADeviceThatIsNotThereIsSaid) {
   const Outcome outcome = squall({"run", k_tiny, "--backend", "opencl", "--frames", "1"},
                                  {{"OCL_ICD_VENDORS", "/no/such/folder"}, {"OCL_ICD_FILENAMES", ""}});

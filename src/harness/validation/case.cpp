@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "core/errors.h"
 #include "core/nearest_name.h"
+#include "core/text_file.h"
 #include "harness/gauges.h"
 #include "harness/validation/observer.h"
 
@@ -21,16 +20,6 @@ namespace {
 constexpr int k_most_samples = 64;
 constexpr double k_most_samples_hz = 1000.0;  ///< frames of a scene may be no shorter
 constexpr int k_samples_for_pressure = 8;
-
-std::string text_of_file(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw InputError(path + ": cannot be read: it is a folder");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path + ": cannot be read; check its name and its rights");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
-}
 
 }  // namespace
 
@@ -83,7 +72,7 @@ Case case_from_table(const std::string& scene_path, const std::string& table_pat
   set_defaults(result);
   const auto names = quantity_names(result.scene);
   double latest = 1.0 / result.scene.time.frame_rate_hz;
-  for (const auto& [name, points] : parse_expected_csv(text_of_file(table_path), table_path)) {
+  for (const auto& [name, points] : parse_expected_csv(read_text_file(table_path), table_path)) {
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw InputError(fmt::format("{}: column '{}' is neither a gauge of {} nor a quantity; did you mean '{}'?",
                                    table_path, name, scene_path, nearest_name(name, names)));
@@ -110,7 +99,7 @@ Case load_case(const std::string& path) {
   std::vector<std::string> files;
   const FileReader read = [&](const std::string& file) {
     files.push_back(file);
-    return text_of_file(file);
+    return read_text_file(file);
   };
   Case result = parse_case(read(path), path, read);
   result.files = std::move(files);
