@@ -2,8 +2,9 @@
    what neighbours need of its pressure and volume.
    One work-item = one particle. */
 #include "shared.h"
+#include "switches.h"
 
-#if SQUALL_LANES == 1
+#if !SQUALL_DFSPH && SQUALL_LANES == 1
 
 #include "density_pass.h"
 

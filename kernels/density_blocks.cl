@@ -3,8 +3,9 @@
    its pressure and volume. One work-item = one share of the rows, in blocks of SQUALL_LANES particles. For CPU devices.
  */
 #include "shared.h"
+#include "switches.h"
 
-#if SQUALL_LANES > 1
+#if !SQUALL_DFSPH && SQUALL_LANES > 1
 
 #include "lists.h"
 #include "search.h"

@@ -1,8 +1,9 @@
 /* Reads and writes what density.cl does, and writes the number of neighbours.
    One work-item = one particle. */
 #include "shared.h"
+#include "switches.h"
 
-#if SQUALL_LANES == 1
+#if !SQUALL_DFSPH && SQUALL_LANES == 1
 
 #include "density_pass.h"
 

@@ -3,8 +3,9 @@
    are copied.
    One work-item = one particle. */
 #include "shared.h"
+#include "switches.h"
 
-#if SQUALL_LANES == 1
+#if !SQUALL_DFSPH && SQUALL_LANES == 1
 
 #include "integrate.h"
 #include "pair_sums.h"

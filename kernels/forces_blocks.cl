@@ -2,8 +2,9 @@
    One work-item = one share of the rows, in blocks of SQUALL_LANES particles; the last one also copies held and lost
    particles. For CPU devices. */
 #include "shared.h"
+#include "switches.h"
 
-#if SQUALL_LANES > 1
+#if !SQUALL_DFSPH && SQUALL_LANES > 1
 
 #include "block_sums.h"
 #include "integrate_block.h"

@@ -17,15 +17,14 @@ static inline float4 with_drag(__constant Params* p, __global const Substep* now
   return fma((float4)(rate), later, a);
 }
 
-/* Moves the particle on; returns SQUALL_CLAMPED, SQUALL_LOST or 0. */
-static inline int integrate(__constant Params* p, __constant Box* boxes, __global const Substep* now, float4 a,
-                            float4* position, float4* velocity) {
-  float4 v = fma((float4)(now->kick), a, *velocity);
+/* Moves the particle on at its velocity; returns SQUALL_CLAMPED, SQUALL_LOST or 0. */
+static inline int move(__constant Params* p, __constant Box* boxes, __global const Substep* now, float4* position,
+                       float4* velocity) {
+  float4 v = *velocity;
   float4 x = fma((float4)(now->dt), v, *position);
   float from[3] = {position->x, position->y, position->z};
   float to[3] = {x.x, x.y, x.z};
   *position = x;
-  *velocity = v;
 #if SQUALL_BOXES
   int box_count = now->box_count;
 #else
@@ -37,6 +36,13 @@ static inline int integrate(__constant Params* p, __constant Box* boxes, __globa
   *position = (float4)(to[0], to[1], to[2], 0.0f);
   *velocity = (float4)(speed[0], speed[1], speed[2], 0.0f);
   return event;
+}
+
+/* Kick and move. */
+static inline int integrate(__constant Params* p, __constant Box* boxes, __global const Substep* now, float4 a,
+                            float4* position, float4* velocity) {
+  *velocity = fma((float4)(now->kick), a, *velocity);
+  return move(p, boxes, now, position, velocity);
 }
 
 #endif

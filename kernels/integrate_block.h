@@ -49,20 +49,25 @@ static inline int keep_lane_inside(__constant Params* p, __constant Box* boxes, 
   return event;
 }
 
-static inline void integrate_block(__constant Params* p, __constant Box* boxes, __global const Substep* now,
-                                   const Block* block, const Lanes* at, Vector* a, __global const float* isolations,
-                                   __global float* records, __global int* clamps) {
-  a->x += (Real)(now->acceleration_x);
-  a->y += (Real)(now->acceleration_y);
-  a->z += (Real)(now->acceleration_z);
-#if SQUALL_DRAG
-  add_drag(p, now, block, at, isolations, a);
+/* What stays in the spare fields of a record: see motion.h. */
+static inline float8 moved_record(const float* to, const float* v, int lost, float pressure, float acceleration2) {
+#if SQUALL_DFSPH
+  return (float8)(to[0], to[1], to[2], pressure, v[0], v[1], v[2], lost ? -1.0f : acceleration2);
+#else
+  float speed2 = fma(v[2], v[2], fma(v[1], v[1], v[0] * v[0]));
+  return (float8)(to[0], to[1], to[2], lost ? 0.0f : speed2, v[0], v[1], v[2], lost ? 0.0f : acceleration2);
 #endif
-  Real kick = (Real)(now->kick), dt = (Real)(now->dt);
-  Vector v = {fma(kick, a->x, at->vx), fma(kick, a->y, at->vy), fma(kick, a->z, at->vz)};
+}
+
+/* Moves a block that is at `at` on with velocity v, and writes its records. The pressure is dfsph's. */
+static inline void move_block(__constant Params* p, __constant Box* boxes, __global const Substep* now,
+                              const Block* block, const Lanes* at, const Vector* a, const Vector* velocity,
+                              Real pressure, __global float* records, __global int* clamps) {
+  Real dt = (Real)(now->dt);
+  Vector v = *velocity;
   Vector x = {fma(dt, v.x, at->x), fma(dt, v.y, at->y), fma(dt, v.z, at->z)};
   float from_lanes[3][SQUALL_LANES], to_lanes[3][SQUALL_LANES], speed_lanes[3][SQUALL_LANES];
-  float acceleration2[SQUALL_LANES];
+  float acceleration2[SQUALL_LANES], pressures[SQUALL_LANES];
   store_lanes(x.x, to_lanes[0]);
   store_lanes(x.y, to_lanes[1]);
   store_lanes(x.z, to_lanes[2]);
@@ -70,6 +75,7 @@ static inline void integrate_block(__constant Params* p, __constant Box* boxes, 
   store_lanes(v.y, speed_lanes[1]);
   store_lanes(v.z, speed_lanes[2]);
   store_lanes(squared_length(a->x, a->y, a->z), acceleration2);
+  store_lanes(pressure, pressures);
 #if SQUALL_BOXES
   int box_count = now->box_count;
 #else
@@ -91,12 +97,24 @@ static inline void integrate_block(__constant Params* p, __constant Box* boxes, 
   }
   for (int i = block->begin; i < block->end; ++i) {
     int lane = i - block->begin;
-    float vx = speed_lanes[0][lane], vy = speed_lanes[1][lane], vz = speed_lanes[2][lane];
-    float speed2 = fma(vz, vz, fma(vy, vy, vx * vx));
-    float8 record = (float8)(to_lanes[0][lane], to_lanes[1][lane], to_lanes[2][lane], lost[lane] ? 0.0f : speed2, vx,
-                             vy, vz, lost[lane] ? 0.0f : acceleration2[lane]);
-    vstore8(record, i, records);
+    float to[3] = {to_lanes[0][lane], to_lanes[1][lane], to_lanes[2][lane]};
+    float speed[3] = {speed_lanes[0][lane], speed_lanes[1][lane], speed_lanes[2][lane]};
+    vstore8(moved_record(to, speed, lost[lane], pressures[lane], acceleration2[lane]), i, records);
   }
+}
+
+static inline void integrate_block(__constant Params* p, __constant Box* boxes, __global const Substep* now,
+                                   const Block* block, const Lanes* at, Vector* a, __global const float* isolations,
+                                   __global float* records, __global int* clamps) {
+  a->x += (Real)(now->acceleration_x);
+  a->y += (Real)(now->acceleration_y);
+  a->z += (Real)(now->acceleration_z);
+#if SQUALL_DRAG
+  add_drag(p, now, block, at, isolations, a);
+#endif
+  Real kick = (Real)(now->kick);
+  Vector v = {fma(kick, a->x, at->vx), fma(kick, a->y, at->vy), fma(kick, a->z, at->vz)};
+  move_block(p, boxes, now, block, at, a, &v, (Real)(0), records, clamps);
 }
 
 #endif

@@ -2,6 +2,7 @@
    which were zero; the largest |v|^2 and |a|^2 of the frame so far at this index (forces.cl leaves those of the
    sub-step before in the records' spare fields: met here, they cost nothing).
    One work-item = one particle. */
+#include "motion.h"
 #include "sort_bins.h"
 
 #if SQUALL_LANES == 1
@@ -14,7 +15,7 @@ __kernel void sort_count(__global const float4* records, __global const uint* id
   if (step == 0 && i == 0) *clamps = 0;
   if (i >= count) return;
   float4 position = records[2 * (size_t)i];
-  float2 largest = (float2)(position.w, records[2 * (size_t)i + 1].w);
+  float2 largest = motion_of(position, records[2 * (size_t)i + 1]);
   /* Before the first sub-step the spare fields belong to the frame before. */
   maxima[i] = step > 0 ? fmax(maxima[i], largest) : (float2)(0.0f, 0.0f);
   int bin = bin_of(p, sort_key(p, groups, substeps[step].held_count, position, ids[i]), i, blocks);

@@ -1,7 +1,8 @@
 /* Reads:  records, ids. Writes: each particle's cell, the chunk's histogram over cells, the chunk's maxima so far.
-   The records' spare fields hold |v|^2 and |a|^2 of the sub-step before (forces.cl): met here, they cost nothing.
+   Records tell |v|^2 and |a|^2 of the sub-step before (motion.h): met here, they cost nothing.
    One work-item = one chunk of particles. */
 #include "chunks.h"
+#include "motion.h"
 #include "sort_key.h"
 
 #if SQUALL_LANES > 1
@@ -21,7 +22,7 @@ __kernel void sort_histogram(__global const float4* records, __global const uint
   int end = chunk_begin(count, chunk + 1, chunks);
   for (int i = chunk_begin(count, chunk, chunks); i < end; ++i) {
     float4 position = records[2 * (size_t)i];
-    largest = fmax(largest, (float2)(position.w, records[2 * (size_t)i + 1].w));
+    largest = fmax(largest, motion_of(position, records[2 * (size_t)i + 1]));
     int key = sort_key(p, groups, held_count, position, ids[i]);
     keys[i] = key;
     ++histogram[key];

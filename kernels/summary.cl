@@ -4,6 +4,7 @@
    One work-item = one chunk of particles. */
 #include "chunks.h"
 #include "grid.h"
+#include "motion.h"
 
 __kernel void summary(__global const float4* records, __global const float* densities, __global const int* neighbours,
                       __global const int* cell_start, __global const float2* maxima, __global const int* clamps,
@@ -20,7 +21,7 @@ __kernel void summary(__global const float4* records, __global const float* dens
   int end = chunk_begin(count, chunk + 1, chunks);
   for (int i = chunk_begin(count, chunk, chunks); i < end; ++i) {
     float4 position = records[2 * (size_t)i];
-    largest = fmax(largest, (float2)(position.w, records[2 * (size_t)i + 1].w));
+    largest = fmax(largest, motion_of(position, records[2 * (size_t)i + 1]));
 #if SQUALL_LANES == 1
     largest = fmax(largest, maxima[i]);
 #endif

@@ -6,6 +6,12 @@
 #ifndef SQUALL_WCSPH /* 1: wcsph, 0: mueller */
 #define SQUALL_WCSPH 1
 #endif
+#ifndef SQUALL_DFSPH /* 1: dfsph, with the kernels of wcsph */
+#define SQUALL_DFSPH 0
+#endif
+#ifndef SQUALL_SMOOTHING /* dfsph: the scene asks for xsph */
+#define SQUALL_SMOOTHING 1
+#endif
 #ifndef SQUALL_VISCOSITY /* the scene names a viscosity */
 #define SQUALL_VISCOSITY 1
 #endif

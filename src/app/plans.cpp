@@ -89,12 +89,6 @@ void refuse_double(const Options& options, bool with_reference) {
         "--precision double with omp or opencl is not in this version; it has it with --backend reference");
 }
 
-void refuse_dfsph(const std::vector<std::string>& names, const Workload& workload) {
-  if (workload.pressure == Pressure::dfsph && std::count(names.begin(), names.end(), "opencl") > 0)
-    throw UsageError(
-        "--pressure dfsph with backend opencl is not in this version; it has it with --backend omp or reference");
-}
-
 std::string default_backend(const Options& options, const std::vector<BackendInfo>& backends) {
   if (!options.backends.empty()) return options.backends.front();
   if (!options.device.empty()) return "opencl";
@@ -147,10 +141,6 @@ class ComparisonPlanner {
   }
   bool wanted(const std::string& backend) {
     if (!options_.backends.empty() && !asked(backend)) return false;
-    if (backend == "opencl" && workload_.pressure == Pressure::dfsph) {
-      result_.left_out.push_back("opencl is left out: it does not have pressure dfsph in this version");
-      return false;
-    }
     const bool by_name = asked(backend) || (backend == "opencl" && !options_.device.empty());
     const std::string problem = problem_of(find_backend(backends_, backend));
     if (problem.empty()) return true;
@@ -205,7 +195,6 @@ class ComparisonPlanner {
 RunPlan plan_run(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
   const std::string name = default_backend(options, backends);
   refuse_double(options, name == "reference");
-  refuse_dfsph({name}, workload);
   const BackendInfo& backend = find_backend(backends, name);
   if (const auto problem = problem_of(backend); !problem.empty())
     throw DeviceError("backend " + name + " cannot run: " + problem);
@@ -228,7 +217,6 @@ RunPlan plan_run(const Options& options, const Workload& workload, const std::ve
 Plans plan_comparison(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
   const auto& asked = options.backends;
   refuse_double(options, std::count(asked.begin(), asked.end(), "reference") > 0);
-  refuse_dfsph(options.device.empty() ? asked : std::vector<std::string>{"opencl"}, workload);
   return ComparisonPlanner(options, workload, backends).plan();
 }
 

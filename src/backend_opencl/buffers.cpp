@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/frame_plan.h"
 #include "lists.h"
+#include "solve_state.h"
 #include "sort_bins.h"
 
 namespace squall::opencl {
@@ -61,6 +62,18 @@ std::vector<Request> bin_requests(const Layout& layout) {
   };
 }
 
+/// For the solves of dfsph.
+std::vector<Request> solve_requests(const WorkShape& shape) {
+  std::vector<Request> all = {
+      {&Buffers::solve, {"pressure solve", SQUALL_SOLVE_FIELDS * solve_stride(shape) * sizeof(cl_float)}},
+      {&Buffers::shares, {"shares of sums", share_count(shape) * sizeof(cl_long)}},
+      {&Buffers::solve_state, {"state of solves", sizeof(SolveState)}},
+  };
+  if (shape.lanes == 1)
+    all.push_back({&Buffers::errors, {"errors of particles", at_least_one(shape.capacity) * sizeof(cl_float)}});
+  return all;
+}
+
 std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
   const std::size_t room = at_least_one(layout.capacity);
   std::vector<Request> all = shape.lanes > 1 ? chunk_requests(layout, shape) : bin_requests(layout);
@@ -79,6 +92,10 @@ std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
       {&Buffers::groups, {"held blocks", at_least_one(layout.groups.size()) * sizeof(HeldGroup), true}},
   };
   all.insert(all.end(), common);
+  if (layout.dfsph) {
+    const auto solve = solve_requests(shape);
+    all.insert(all.end(), solve.begin(), solve.end());
+  }
   return all;
 }
 
@@ -109,6 +126,13 @@ int choose_lanes(const Machine& machine, Simd simd) {
 
 }  // namespace
 
+std::size_t share_count(const WorkShape& shape) {
+  constexpr std::size_t k_shares = 512;  // one work-item adds them up, and each adds up so many-th of the particles
+  return shape.lanes == 1 ? round_up(k_shares, shape.sum_group) : shape.parts;
+}
+
+std::size_t solve_stride(const WorkShape& shape) { return round_up(at_least_one(shape.capacity), 16); }
+
 WorkShape make_shape(const Machine& machine, const Layout& layout) {
   const WorkSizes& work = layout.work;
   check(work);
@@ -123,6 +147,7 @@ WorkShape make_shape(const Machine& machine, const Layout& layout) {
     throw InputError("work groups of " + std::to_string(shape.group) + " are too large for " + machine.info.name +
                      ", which allows " + std::to_string(largest));
   const std::size_t units = at_least_one(static_cast<std::size_t>(machine.compute_units));
+  shape.sum_group = std::min<std::size_t>(shape.group, 64);
   // A few shares of the rows for each processor, to even out what a share costs.
   shape.parts = value(work.parts, 4) * units;
   shape.particles = round_up(at_least_one(layout.capacity), shape.group);

@@ -18,6 +18,7 @@ struct Layout {
   std::size_t capacity = 0;  ///< particles
   bool drag = false;
   bool statistics = false;
+  bool dfsph = false;
   Readback readback = Readback::none;
   WorkSizes work;
   Simd simd = Simd::best;  ///< lanes: scalar 1, avx2 8, avx512 16; best: by the device
@@ -32,11 +33,17 @@ struct WorkShape {
   std::size_t chunks = 1;  ///< of particles, where order matters or a sum is made
   std::size_t ranges = 1;  ///< of cells, where the sort goes by chunks
   std::size_t chunk_group = 1;
-  int lanes = 1;          ///< particles per vector: 1 gives every particle a work-item of its own, sort included
-  std::size_t parts = 1;  ///< work-items over rows of cells, with more lanes than one
+  int lanes = 1;              ///< particles per vector: 1 gives every particle a work-item of its own, sort included
+  std::size_t parts = 1;      ///< work-items over rows of cells, with more lanes than one
+  std::size_t sum_group = 1;  ///< of work-items that sum up what dfsph goes on by, with one lane
 };
 /// Throws InputError for work sizes that are out of range, or too large for the device.
 WorkShape make_shape(const Machine& machine, const Layout& layout);
+
+/// Shares of the sums that dfsph goes on by.
+std::size_t share_count(const WorkShape& shape);
+/// From one field of what dfsph keeps of particles to the next (solve_state.h).
+std::size_t solve_stride(const WorkShape& shape);
 
 /// Memory aligned to pages, for buffers that a device shares with the host.
 struct PageDeleter {
@@ -61,6 +68,10 @@ struct Buffers {
   cl::Buffer neighbours;             ///< likewise
   cl::Buffer x, y, z;                ///< likewise, for kernels that work on blocks
   cl::Buffer lists;                  ///< likewise: neighbours of blocks
+  cl::Buffer solve;                  ///< dfsph: fields of all particles, in sorted order (solve_state.h)
+  cl::Buffer errors;                 ///< dfsph: likewise, for kernels with a work-item per particle
+  cl::Buffer shares;                 ///< dfsph: of the sums that decide
+  cl::Buffer solve_state;            ///< dfsph
   cl::Buffer maxima;                 ///< per chunk or per index: |v|^2 and |a|^2 of the frame so far
   cl::Buffer clamps;                 ///< of the frame
   cl::Buffer summaries;              ///< per chunk, at the end of a frame

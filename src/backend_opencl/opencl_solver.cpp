@@ -10,6 +10,7 @@
 #include "backend_opencl/launcher.h"
 #include "backend_opencl/opencl_backend.h"
 #include "backend_opencl/passes.h"
+#include "backend_opencl/pressure_solve.h"
 #include "backend_opencl/program.h"
 #include "backend_opencl/readback.h"
 #include "backend_opencl/shared_memory.h"
@@ -75,7 +76,8 @@ class OpenclSolver final : public Solver {
   Particles download();
   void advance_frame(const FramePlan& plan, bool deliver, FrameReport& report);
   void upload_table(const FramePlan& plan, FrameReport& report);
-  void enqueue_substep(int step, const Substep<double>& substep, bool deliver);
+  void run_substep(int step, const Substep<double>& substep, bool deliver, FrameReport& report);
+  bool is_dfsph() const { return settings().pressure == Pressure::dfsph; }
   void fill_report(FrameReport& report) const;
   void take_device_times(FrameReport& report);
 
@@ -85,6 +87,7 @@ class OpenclSolver final : public Solver {
   Buffers buffers_;
   std::unique_ptr<Sort> sort_;
   std::optional<Passes> passes_;
+  std::optional<PressureSolve> solve_;    // of dfsph
   std::optional<PositionReader> reader_;  // after the buffers: it unmaps before they go
   std::vector<Substep<float>> table_;
   std::vector<ChunkSummary> summaries_;
@@ -102,6 +105,7 @@ void OpenclSolver::set_up() {
   layout.groups = held_groups();
   layout.capacity = capacity();
   layout.drag = !scene().rains.empty();
+  layout.dfsph = is_dfsph();
   layout.statistics = settings().statistics;
   layout.readback = settings().readback;
   layout.simd = settings().simd;
@@ -117,7 +121,8 @@ void OpenclSolver::set_up() {
   const bool shared = PositionReader::wants_shared(layout.readback) && shares_host_memory(machine_, program);
   buffers_ = make_buffers(machine_, layout, shape_, shared && layout.readback == Readback::mapped);
   sort_ = make_sort(program, buffers_, shape_);
-  passes_.emplace(program, buffers_, shape_);
+  passes_.emplace(program, buffers_, shape_, settings().pressure);
+  if (is_dfsph()) solve_.emplace(program, buffers_, shape_, scene().solver);
   reader_.emplace(machine_, program, buffers_, layout, shape_, shared);
   summaries_.resize(shape_.chunks);
   warm_up();
@@ -128,9 +133,13 @@ void OpenclSolver::set_up() {
 void OpenclSolver::warm_up() {
   passes_->enqueue_release(launcher_, 0, 0, 0);
   sort_->enqueue(launcher_, 0, 0, 0);
-  passes_->enqueue_density(launcher_, 0, false);
-  passes_->enqueue_density(launcher_, 0, true);
-  passes_->enqueue_forces(launcher_, 0, 0);
+  if (solve_) {
+    solve_->warm_up(launcher_);
+  } else {
+    passes_->enqueue_density(launcher_, 0, false);
+    passes_->enqueue_density(launcher_, 0, true);
+    passes_->enqueue_forces(launcher_, 0, 0);
+  }
   passes_->enqueue_summary(launcher_, 0, false);
   reader_->warm_up(launcher_);
   launcher_.queue().finish();
@@ -144,7 +153,8 @@ void OpenclSolver::upload(const Particles& particles) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Eigen::Vector3f x = particles.positions[i].cast<float>();
     const Eigen::Vector3f v = particles.velocities[i].cast<float>();
-    records[i] = {x[0], x[1], x[2], 0.0f, v[0], v[1], v[2], 0.0f};
+    const float pressure = is_dfsph() ? static_cast<float>(particles.pressures[i]) : 0.0f;
+    records[i] = {x[0], x[1], x[2], pressure, v[0], v[1], v[2], 0.0f};
   }
   const auto before = static_cast<std::size_t>(count_);
   auto& queue = launcher_.queue();
@@ -168,7 +178,7 @@ Particles OpenclSolver::download() {
   particles.reserve(size);
   for (std::size_t i = 0; i < size; ++i) {
     const Record& r = records[i];
-    particles.add(ids[i], {r.x, r.y, r.z}, {r.vx, r.vy, r.vz});
+    particles.add(ids[i], {r.x, r.y, r.z}, {r.vx, r.vy, r.vz}, is_dfsph() ? static_cast<double>(r.spare_0) : 0.0);
   }
   return particles;
 }
@@ -181,7 +191,7 @@ void OpenclSolver::advance_frame(const FramePlan& plan, bool deliver, FrameRepor
   if (deliver) reader_->before_frame(launcher_, settled_count_);
   bool statistics = false;
   for (std::size_t step = 0; step < plan.substeps.size(); ++step) {
-    enqueue_substep(static_cast<int>(step), plan.substeps[step], deliver);
+    run_substep(static_cast<int>(step), plan.substeps[step], deliver, report);
     statistics = settings().statistics && plan.substeps[step].statistics != 0;
   }
   launcher_.trace().end_substeps();
@@ -226,13 +236,17 @@ void OpenclSolver::upload_table(const FramePlan& plan, FrameReport& report) {
   launcher_.trace().host("upload", begin);
 }
 
-void OpenclSolver::enqueue_substep(int step, const Substep<double>& substep, bool deliver) {
+void OpenclSolver::run_substep(int step, const Substep<double>& substep, bool deliver, FrameReport& report) {
   launcher_.trace().begin_substep();
   if (substep.released_count > 0) passes_->enqueue_release(launcher_, step, count_, ids_now_);
   sort_->enqueue(launcher_, step, count_, ids_now_);
   ids_now_ = 1 - ids_now_;
-  passes_->enqueue_density(launcher_, step, settings().statistics && substep.statistics != 0);
-  passes_->enqueue_forces(launcher_, step, count_);
+  if (solve_) {
+    solve_->run(launcher_, step, count_, report);
+  } else {
+    passes_->enqueue_density(launcher_, step, settings().statistics && substep.statistics != 0);
+    passes_->enqueue_forces(launcher_, step, count_);
+  }
   if (deliver) reader_->after_substep(launcher_, count_);
 }
 
@@ -264,8 +278,6 @@ void OpenclSolver::fill_report(FrameReport& report) const {
 std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings) {
   if (settings.precision != Precision::single_precision)
     throw InputError("the opencl backend computes in single precision; drop --precision double, or use --backend omp");
-  if (settings.pressure == Pressure::dfsph)
-    throw InputError("pressure dfsph is not in this version of the opencl backend; use --backend omp or reference");
   return std::make_unique<OpenclSolver>(scene, settings);
 }
 

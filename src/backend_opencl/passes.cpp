@@ -8,25 +8,30 @@ std::string build_options(const Scene& scene, Pressure pressure, bool rounds_cor
   const auto flag = [](const char* name, bool value) { return std::string(" -D") + name + (value ? "=1" : "=0"); };
   std::string options = "-cl-std=CL1.2";
   if (rounds_correctly) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  return options + " -DSQUALL_LANES=" + std::to_string(lanes) + flag("SQUALL_WCSPH", pressure == Pressure::wcsph) +
+  return options + " -DSQUALL_LANES=" + std::to_string(lanes) + flag("SQUALL_WCSPH", pressure != Pressure::mueller) +
+         flag("SQUALL_DFSPH", pressure == Pressure::dfsph) + flag("SQUALL_SMOOTHING", scene.solver.xsph > 0.0) +
          flag("SQUALL_VISCOSITY", scene.fluid.viscosity_m2_s.has_value()) + flag("SQUALL_BOXES", !scene.boxes.empty()) +
          flag("SQUALL_DRAG", !scene.rains.empty());
 }
 
-Passes::Passes(const cl::Program& program, const Buffers& buffers, const WorkShape& shape)
+Passes::Passes(const cl::Program& program, const Buffers& buffers, const WorkShape& shape, Pressure pressure)
     : ids_{buffers.ids[0], buffers.ids[1]},
       shape_(shape),
       pass_items_(shape.lanes == 1 ? shape.particles : shape.parts),
       pass_group_(shape.lanes == 1 ? shape.group : 1),
       release_(program, "release"),
       summary_(program, "summary") {
-  if (shape.lanes == 1)
-    make_particle_kernels(program, buffers);
-  else
-    make_block_kernels(program, buffers);
+  if (pressure != Pressure::dfsph) make_force_kernels(program, buffers);
   set_arguments(release_, buffers.records, buffers.ids[0], buffers.params, buffers.groups, buffers.substeps, 0, 0);
   set_arguments(summary_, buffers.records, buffers.densities, buffers.neighbours, buffers.cell_start, buffers.maxima,
                 buffers.clamps, buffers.params, 0, 0, buffers.summaries);
+}
+
+void Passes::make_force_kernels(const cl::Program& program, const Buffers& buffers) {
+  if (shape_.lanes == 1)
+    make_particle_kernels(program, buffers);
+  else
+    make_block_kernels(program, buffers);
 }
 
 void Passes::make_particle_kernels(const cl::Program& program, const Buffers& buffers) {

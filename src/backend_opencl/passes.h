@@ -11,10 +11,11 @@ namespace squall::opencl {
 /// Options for the kernels' compiler: switches of the scene and the device; no constants.
 std::string build_options(const Scene& scene, Pressure pressure, bool rounds_correctly, int lanes);
 
-/// Everything of a sub-step but the sort, and the summary that ends a frame.
+/// Everything of a sub-step but the sort, and the summary that ends a frame. dfsph has PressureSolve in place of
+/// density and forces.
 class Passes {
  public:
-  Passes(const cl::Program& program, const Buffers& buffers, const WorkShape& shape);
+  Passes(const cl::Program& program, const Buffers& buffers, const WorkShape& shape, Pressure pressure);
 
   /// Before the sort: frees held particles whose moment this is.
   void enqueue_release(Launcher& launcher, int step, int count, int ids_now);
@@ -25,6 +26,7 @@ class Passes {
 
  private:
   cl::Buffer ids_[2];
+  void make_force_kernels(const cl::Program& program, const Buffers& buffers);
   void make_particle_kernels(const cl::Program& program, const Buffers& buffers);
   void make_block_kernels(const cl::Program& program, const Buffers& buffers);
 

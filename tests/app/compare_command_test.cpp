@@ -46,18 +46,20 @@ TEST(CompareCommand, TheReferenceRunsOnlyWhenNamedAndNeverAgrees) {
   EXPECT_FALSE(result["runs"][0].contains("position_error_dx"));
 }
 
-TEST(CompareCommand, LeavesOutWhatDoesNotHaveThePressureSolver) {
+TEST(CompareCommand, DfsphAgreesBitByBitOnOmpAndOpenCl) {
   const Outcome outcome =
-      squall({"compare", k_tiny, "--pressure", "dfsph", "--threads", "1,2", "--frames", "4", "--json", "-"});
+      squall({"compare", k_tiny, "--pressure", "dfsph", "--readback", "none,mapped", "--frames", "4", "--json", "-"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("opencl is left out"), std::string::npos) << outcome.err;
   const json result = json::parse(outcome.out);
-  EXPECT_THAT(labels(result), testing::ElementsAre("omp, 1 thread", "omp, 2 threads"));
+  const std::vector<std::string> names = labels(result);
+  EXPECT_THAT(names, testing::IsSupersetOf({"omp, 1 thread", "opencl 0, none", "opencl 0, mapped"}));
   EXPECT_EQ(result["agreement"]["bitwise"], true);
   for (const json& run : result["runs"]) {
     EXPECT_GE(run["density_iterations"]["mean"], 2.0);
-    EXPECT_GT(run["light_pass_ns"], 0.0);
-    EXPECT_TRUE(run["phase_ms"].contains("density solve")) << run["phase_ms"];
+    EXPECT_EQ(run["density_iterations"], result["runs"][0]["density_iterations"]);
+    EXPECT_EQ(run["light_pass_ns"].is_null(), run["backend"] == "opencl") << "which does not time them";
+    for (const char* phase : {"prepare", "divergence solve", "predict", "density solve", "drift"})
+      EXPECT_TRUE(run["phase_ms"].contains(phase)) << phase << " in " << run["phase_ms"];
   }
 }
 

@@ -43,9 +43,6 @@ TEST(Usage, OptionsThatAreNotThere) {
 
 TEST(Usage, ValuesThatAreNotThere) {
   expect_usage_error({"compare", k_tiny, "--readback", "none,psychic"}, "pinned, mapped, async, quantized");
-  expect_usage_error({"run", k_tiny, "--pressure", "dfsph", "--backend", "opencl"}, "not in this version");
-  expect_usage_error({"compare", k_tiny, "--pressure", "dfsph", "--backend", "omp,opencl"}, "not in this version");
-  expect_usage_error({"compare", k_tiny, "--pressure", "dfsph", "--device", "0"}, "not in this version");
   expect_usage_error({"run", k_tiny, "--precision", "double", "--backend", "omp"}, "not in this version");
   expect_usage_error({"compare", k_tiny, "--precision", "double"}, "not in this version");
   expect_usage_error({"run", k_tiny, "--backend", "cuda"}, "reference, omp, opencl");

@@ -70,11 +70,9 @@ inline std::vector<BackendUnderTest> bitwise_backends(Pressure pressure) {
   for (const int threads : {1, 2, 3})
     all.push_back(omp(std::to_string(threads) + "_threads", threads, Simd::best, pressure));
   for (const Simd simd : processor_simd()) all.push_back(omp(to_string(simd), 2, simd, pressure));
-  if (pressure != Pressure::dfsph) {  // not in this version of the opencl backend
-    all.push_back(opencl("particles", Simd::scalar, pressure));
-    all.push_back(opencl("float8", Simd::avx2, pressure));
-    all.push_back(opencl("float16", Simd::avx512, pressure));
-  }
+  all.push_back(opencl("particles", Simd::scalar, pressure));
+  all.push_back(opencl("float8", Simd::avx2, pressure));
+  all.push_back(opencl("float16", Simd::avx512, pressure));
   all.push_back(reference(Precision::single_precision, pressure));
   return all;
 }

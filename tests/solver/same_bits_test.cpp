@@ -132,12 +132,11 @@ class LockStep {
 TEST_P(SameBits, OnAnyNumberOfThreadsAndOnOpenCl) {
   const auto [window, pressure] = GetParam();
   Scene scene = this->scene();
-  std::vector<BackendUnderTest> backends;
+  std::vector<BackendUnderTest> backends = {opencl("by_device", Simd::best, pressure),
+                                            opencl("particles", Simd::scalar, pressure)};
   if (pressure == Pressure::dfsph) {
     scale_to_particles(scene, 3000);
     backends.push_back(omp("5_threads", 5, Simd::best, pressure));
-  } else {
-    backends = {opencl("by_device", Simd::best, pressure), opencl("particles", Simd::scalar, pressure)};
   }
   for (const int threads : {1, 2, 3})
     backends.push_back(omp(std::to_string(threads) + "_threads", threads, Simd::best, pressure));
@@ -180,7 +179,7 @@ TEST(SameBitsOfLostOnes, HoweverManyAreLost) {
   Particles torn = random_particles(1000, {0.05, 0.05, 0.05}, {0.75, 0.55, 0.35}, 0.3, 7);
   for (std::size_t i = 0; i < torn.size(); ++i)
     if (i % 3 == 1 || (i > 200 && i < 400)) torn.positions[i].x() = 100;
-  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller}) {
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph}) {
     const std::vector<BackendUnderTest> backends = bitwise_backends(pressure);
     const auto first = backends.front().make(scene);
     first->load(torn);

@@ -1,0 +1,110 @@
+/* dfsph, between its solves: reads and writes what predict.cl does; reads also the lists of neighbours. One work-item =
+   one share of the rows, in blocks of SQUALL_LANES particles; the last one also copies held and lost particles. For CPU
+   devices. */
+#include "shared.h"
+#include "switches.h"
+
+#if SQUALL_DFSPH && SQUALL_LANES > 1
+
+#include "integrate_block.h"
+#include "solve_blocks.h"
+
+typedef struct {
+  Vector pushed, smoothed;
+} Prediction;
+
+static inline void predict_pair(__constant Params* p, Real viscous, const Lanes* a, __global const float* b,
+                                Prediction* sums) {
+  Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
+  Real r2 = squared_length(x, y, z);
+  Real impulses = a->volume_term + (Real)(b[7]);
+#if SQUALL_VISCOSITY
+  Real receding = dot_product(x, y, z, a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
+  impulses = viscous_pair_push(impulses, viscous, receding, r2, (Real)(p->softening));
+#endif
+  add_scaled(&sums->pushed, impulses * weight_of(p, r2), x, y, z);
+#if SQUALL_SMOOTHING
+  Real r = sqrt(r2);
+  Real value = cubic_value(remaining_support(r, (Real)(p->inverse_support)),
+                           remaining_support(r, (Real)(p->inverse_half_support)));
+  add_scaled(&sums->smoothed, value, (Real)(b[4]) - a->vx, (Real)(b[5]) - a->vy, (Real)(b[6]) - a->vz);
+#endif
+}
+
+static inline void predict_from_neighbours(__constant Params* p, float kick, __global const float* sorted,
+                                           const Places* places, __global const int* cell_start, const Block* block,
+                                           const Lanes* a, __global const int* list, Prediction* sums) {
+  sums->pushed.x = sums->pushed.y = sums->pushed.z = (Real)(0);
+  sums->smoothed = sums->pushed;
+  Real viscous = (Real)(p->viscosity_scale * kick);
+  Neighbours neighbours;
+  begin_neighbours(p, cell_start, block, a, list, &neighbours);
+  int found[SQUALL_BATCH + 1], count;
+  while ((count = next_neighbours(p, places, &neighbours, found)) > 0)
+    for (int k = 0; k < count; ++k) predict_pair(p, viscous, a, sorted + 8 * (size_t)found[k], sums);
+}
+
+/* One component of the velocity to start the density solve from. */
+static inline Real predicted(__constant Params* p, __global const Substep* now, Real v, Real a, Real pushed,
+                             Real from_wall, Real smoothed) {
+  Real next = fma((Real)(now->kick), a, v) + fma((Real)(p->force_scale), pushed, from_wall);
+#if SQUALL_SMOOTHING
+  next = fma((Real)(p->smoothing_scale * now->dt), smoothed, next);
+#endif
+  return next;
+}
+
+static inline void predict_block(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* at,
+                                 const Prediction* sums, float correction, __global const float* densities,
+                                 __global const float* isolations, int stride, __global float* solve,
+                                 __global float* records) {
+  Vector a = {(Real)(0) + (Real)(now->acceleration_x), (Real)(0) + (Real)(now->acceleration_y),
+              (Real)(0) + (Real)(now->acceleration_z)};
+#if SQUALL_DRAG
+  add_drag(p, now, block, at, isolations, &a);
+#endif
+  Real impulse = at->volume_term;
+  Real ex = load_field(solve, SQUALL_OPENING_X, stride, block), ey = load_field(solve, SQUALL_OPENING_Y, stride, block),
+       ez = load_field(solve, SQUALL_OPENING_Z, stride, block);
+  scatter(at->x, block, 0, records);
+  scatter(at->y, block, 1, records);
+  scatter(at->z, block, 2, records);
+  scatter((Real)(0), block, 3, records);
+  scatter(predicted(p, now, at->vx, a.x, sums->pushed.x, impulse * ex, sums->smoothed.x), block, 4, records);
+  scatter(predicted(p, now, at->vy, a.y, sums->pushed.y, impulse * ey, sums->smoothed.y), block, 5, records);
+  scatter(predicted(p, now, at->vz, a.z, sums->pushed.z, impulse * ez, sums->smoothed.z), block, 6, records);
+  scatter((Real)(0), block, 7, records);
+  store_field(impulse, SQUALL_IMPULSE, stride, block, solve);
+  store_field(impulse, SQUALL_PROJECTED, stride, block, solve);
+  store_field(density_room(gather_value(densities, block), (Real)(correction)), SQUALL_ROOM, stride, block, solve);
+}
+
+__kernel void predict_blocks(__global const float* sorted, __global float* records, __global const float* densities,
+                             __global const float* isolations, __global const float* x, __global const float* y,
+                             __global const float* z, __global const int* cell_start, __global const int* lists,
+                             __global float* solve, __global const SolveState* state, __constant Params* p,
+                             __global const Substep* substeps, int stride, int step, int count) {
+  if (state->solve != SQUALL_DENSITY_SOLVE) return;
+  __global const Substep* now = substeps + step;
+  Places places = {x, y, z};
+  Share share;
+  take_share(p, cell_start, &share);
+  __global const int* list = lists + SQUALL_LIST_ENTRIES * (size_t)share.begin;
+  for (int row = share.row; row < share.end_row; ++row) {
+    int row_end = cell_start[(row + 1) * p->cells_x];
+    for (int begin = cell_start[row * p->cells_x]; begin < row_end; begin += SQUALL_LANES) {
+      Block block;
+      Lanes lanes;
+      Prediction sums;
+      make_block(p, x, row, begin, row_end, &block);
+      load_block(sorted, &places, &block, &lanes);
+      predict_from_neighbours(p, now->kick, sorted, &places, cell_start, &block, &lanes, list, &sums);
+      predict_block(p, now, &block, &lanes, &sums, state->correction, densities, isolations, stride, solve, records);
+      list += 1 + max(*list, 0);
+    }
+  }
+  if (get_global_id(0) != get_global_size(0) - 1) return;
+  for (int i = cell_start[p->cell_count]; i < count; ++i) vstore8(vload8(i, sorted), i, records);
+}
+
+#endif

@@ -1,0 +1,85 @@
+/* dfsph. Reads: positions in sorted order, cell starts, velocities and last pressures of the records. Writes: density,
+   isolation, number of neighbours (in the sub-step that the frame report describes), what the solves need of a
+   particle, over-density, and into the records' last field the impulse to start from.
+   One work-item = one particle. */
+#include "shared.h"
+#include "switches.h"
+
+#if SQUALL_DFSPH && SQUALL_LANES == 1
+
+#include "solve_pairs.h"
+#include "wall_openings.h"
+
+typedef struct {
+  float even, odd; /* kernel sums by the parity of the sorted index */
+  float squares;   /* of slopes */
+  float4 gradient;
+  int neighbours; /* self included */
+} PreparedSums;
+
+static inline void add_candidate(__constant Params* p, float4 from, float4 to, int j, PreparedSums* sums) {
+  float4 way = from - to; /* w means nothing, here and in the sum */
+  float r2 = squared_length(way.x, way.y, way.z);
+  if (!(r2 < p->list_squared)) return; /* it would add exactly zero */
+  float r = sqrt(r2);
+  float u = remaining_support(r, p->inverse_support), w = remaining_support(r, p->inverse_half_support);
+  float slope = cubic_slope(u, w), value = cubic_value(u, w);
+  if (j & 1)
+    sums->odd += value;
+  else
+    sums->even += value;
+  sums->neighbours += u > 0.0f;
+  sums->gradient = fma((float4)(pair_weight(slope, r, p->tiny)), way, sums->gradient);
+  sums->squares = fma(slope, slope, sums->squares);
+}
+
+static inline void sum_candidates(__constant Params* p, __global const float4* places, __global const int* cell_start,
+                                  float4 at, PreparedSums* sums) {
+  sums->even = sums->odd = sums->squares = 0.0f;
+  sums->gradient = (float4)(0.0f);
+  sums->neighbours = 0;
+  Neighbourhood cells = neighbourhood(p, at.x, at.y, at.z);
+  for (int z = cells.first_z; z <= cells.last_z; ++z) {
+    for (int y = cells.first_y; y <= cells.last_y; ++y) {
+      int2 range = candidates(p, cell_start, cells, y, z);
+      for (int j = range.x; j < range.y; ++j) add_candidate(p, at, places[j], j, sums);
+    }
+  }
+}
+
+__kernel void prepare(__global const float4* places, __global float* records, __global float* densities,
+                      __global float* isolations, __global int* neighbours, __global const int* cell_start,
+                      __global float* solve, __global float* errors, __constant Params* p, __constant Box* boxes,
+                      __global const Substep* substeps, int stride, int step) {
+  int i = (int)get_global_id(0);
+  if (i >= cell_start[p->cell_count]) return;
+  __global const Substep* now = substeps + step;
+  float4 at = places[i];
+  PreparedSums sums;
+  sum_candidates(p, places, cell_start, at, &sums);
+  float kernel_sum = sums.even + sums.odd;
+  float ex, ey, ez;
+  float share = 1 - opening_with_cores(p, boxes, now->box_count, at.x, at.y, at.z, &ex, &ey, &ez);
+  float density = relative_density(kernel_sum, p->density_scale, share);
+  float response = pressure_response(fma(p->force_scale, sums.gradient.x, ex), fma(p->force_scale, sums.gradient.y, ey),
+                                     fma(p->force_scale, sums.gradient.z, ez), sums.squares, p->force_scale);
+  densities[i] = density;
+  errors[i] = density - 1;
+#if SQUALL_DRAG
+  isolations[i] = isolation(kernel_sum, p->self_value, p->density_scale, share, p->steepness);
+#endif
+  if (now->statistics) neighbours[i] = sums.neighbours - 1;
+  solve[field_of(SQUALL_OPENING_X, stride, i)] = ex;
+  solve[field_of(SQUALL_OPENING_Y, stride, i)] = ey;
+  solve[field_of(SQUALL_OPENING_Z, stride, i)] = ez;
+  solve[field_of(SQUALL_RESPONSE, stride, i)] = response;
+  solve[field_of(SQUALL_INVERSE_RESPONSE, stride, i)] = inverse_response(response, p->response_guard);
+  solve[field_of(SQUALL_ROOM, stride, i)] = divergence_room(density, p->free_density);
+  solve[field_of(SQUALL_IMPULSE, stride, i)] = 0.0f;
+  solve[field_of(SQUALL_PROJECTED, stride, i)] = 0.0f;
+  __global float* record = records + 8 * (size_t)i;
+  for (int axis = 0; axis < 3; ++axis) solve[field_of(SQUALL_START_VX + axis, stride, i)] = record[4 + axis];
+  record[7] = warm_impulse(record[3], now->warm_kick, p->largest_warm_impulse / now->dt);
+}
+
+#endif

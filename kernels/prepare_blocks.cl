@@ -1,0 +1,143 @@
+/* dfsph. Reads and writes what prepare.cl does, over-density as this work-item's share of the sum; writes also the
+   blocks' lists of neighbours. One work-item = one share of the rows, in blocks of SQUALL_LANES particles. For CPU
+   devices. */
+#include "shared.h"
+#include "switches.h"
+
+#if SQUALL_DFSPH && SQUALL_LANES > 1
+
+#include "solve_blocks.h"
+#include "wall_openings.h"
+
+typedef struct {
+  Real even, odd; /* kernel sums by the parity of the sorted index */
+  Real squares;   /* of slopes */
+  Vector gradient;
+  Mask neighbours; /* minus their number, self included */
+} PreparedSums;
+
+__constant Mask k_only_even[2] = {(Mask)(-1), (Mask)(0)};
+
+/* Adds the candidates; keeps in the list those that any lane has within reach. */
+static inline int sum_batch(__constant Params* p, const Places* places, Real x, Real y, Real z, int count, int* list,
+                            PreparedSums* sums) {
+  int kept = 0;
+  for (int k = 0; k < count; ++k) {
+    int j = list[k];
+    Real dx = x - (Real)(places->x[j]), dy = y - (Real)(places->y[j]), dz = z - (Real)(places->z[j]);
+    Real r2 = squared_length(dx, dy, dz);
+    Real r = sqrt(r2);
+    Real u = remaining_support(r, (Real)(p->inverse_support)),
+         w = remaining_support(r, (Real)(p->inverse_half_support));
+    Real value = cubic_value(u, w), slope = cubic_slope(u, w);
+    list[kept] = j;
+    kept += any_lane(r2 < (Real)(p->list_squared));
+    sums->even += as_real(as_mask(value) & k_only_even[j & 1]); /* the value or exactly zero */
+    sums->odd += as_real(as_mask(value) & k_only_even[1 - (j & 1)]);
+    sums->neighbours += u > (Real)(0);
+    sums->squares = fma(slope, slope, sums->squares);
+    add_scaled(&sums->gradient, pair_weight(slope, r, (Real)(p->tiny)), dx, dy, dz);
+  }
+  return kept;
+}
+
+static inline void sum_candidates(__constant Params* p, const Places* places, __global const int* cell_start,
+                                  const Block* block, Real x, Real y, Real z, NeighbourLists* lists,
+                                  PreparedSums* sums) {
+  sums->even = sums->odd = sums->squares = (Real)(0);
+  sums->gradient.x = sums->gradient.y = sums->gradient.z = (Real)(0);
+  sums->neighbours = (Mask)(0);
+  Search search;
+  begin_search(p, cell_start, block, x, y, z, &search);
+  int found[SQUALL_BATCH + 1];
+  int batches = 0, kept = 0, count;
+  while ((count = search_batch(p, places, &search, found)) > 0) {
+    kept = sum_batch(p, places, x, y, z, count, found, sums);
+    ++batches;
+  }
+  add_list(lists, block, found, batches == 1 ? kept : SQUALL_NO_LIST);
+}
+
+/* The open share at the block, and its gradient. */
+static inline Real opening_of(__constant Params* p, __constant Box* boxes, int box_count, Real x, Real y, Real z,
+                              Vector* e) {
+  e->x = e->y = e->z = (Real)(0);
+#if SQUALL_BOXES
+  int walls_near = box_count > 0 || near_container(p, x, y, z);
+#else
+  int walls_near = near_container(p, x, y, z);
+#endif
+  return walls_near ? opening_with_cores(p, boxes, box_count, x, y, z, &e->x, &e->y, &e->z) : (Real)(1);
+}
+
+/* Where the block's solves begin: the divergence solve from no impulse, the density solve from that of the last
+   pressure. */
+static inline void begin_block(__constant Params* p, __global const Substep* now, const Block* block, Real density,
+                               int stride, __global float* records, __global float* solve) {
+  store_field(divergence_room(density, (Real)(p->free_density)), SQUALL_ROOM, stride, block, solve);
+  store_field((Real)(0), SQUALL_IMPULSE, stride, block, solve);
+  store_field((Real)(0), SQUALL_PROJECTED, stride, block, solve);
+  for (int axis = 0; axis < 3; ++axis)
+    store_field(gather(records, block, 4 + axis), SQUALL_START_VX + axis, stride, block, solve);
+  Real largest = (Real)(p->largest_warm_impulse / now->dt);
+  scatter(warm_impulse(gather(records, block, 3), (Real)(now->warm_kick), largest), block, 7, records);
+}
+
+/* Returns what the block adds to the sum of over-density. */
+static inline long prepare_block(__global float* records, __global float* densities, __global float* isolations,
+                                 __global int* neighbours, const Places* places, __global const int* cell_start,
+                                 __global float* solve, __constant Params* p, __constant Box* boxes,
+                                 __global const Substep* now, int stride, const Block* block, NeighbourLists* lists) {
+  Real x = load_own(places->x, block), y = load_own(places->y, block), z = load_own(places->z, block);
+  PreparedSums sums;
+  sum_candidates(p, places, cell_start, block, x, y, z, lists, &sums);
+  Real kernel_sum = sums.even + sums.odd;
+  Vector e;
+  Real share = (Real)(1) - opening_of(p, boxes, now->box_count, x, y, z, &e);
+  Real density = relative_density(kernel_sum, (Real)(p->density_scale), share);
+  Real scale = (Real)(p->force_scale);
+  Real response = pressure_response(fma(scale, sums.gradient.x, e.x), fma(scale, sums.gradient.y, e.y),
+                                    fma(scale, sums.gradient.z, e.z), sums.squares, scale);
+  store_values(density, block, densities);
+  store_field(e.x, SQUALL_OPENING_X, stride, block, solve);
+  store_field(e.y, SQUALL_OPENING_Y, stride, block, solve);
+  store_field(e.z, SQUALL_OPENING_Z, stride, block, solve);
+  store_field(response, SQUALL_RESPONSE, stride, block, solve);
+  store_field(inverse_response(response, (Real)(p->response_guard)), SQUALL_INVERSE_RESPONSE, stride, block, solve);
+#if SQUALL_DRAG
+  store_values(isolation(kernel_sum, (Real)(p->self_value), (Real)(p->density_scale), share, (Real)(p->steepness)),
+               block, isolations);
+#endif
+  if (now->statistics) {
+    int counts[SQUALL_LANES];
+    store_lanes(sums.neighbours, counts);
+    for (int i = block->begin; i < block->end; ++i) neighbours[i] = -counts[i - block->begin] - 1;
+  }
+  begin_block(p, now, block, density, stride, records, solve);
+  return sum_of_terms(density - (Real)(1), block);
+}
+
+__kernel void prepare_blocks(__global float* records, __global float* densities, __global float* isolations,
+                             __global int* neighbours, __global const float* x, __global const float* y,
+                             __global const float* z, __global const int* cell_start, __global int* list_memory,
+                             __global float* solve, __global long* shares, __constant Params* p, __constant Box* boxes,
+                             __global const Substep* substeps, int stride, int step) {
+  Places places = {x, y, z};
+  Share share;
+  take_share(p, cell_start, &share);
+  NeighbourLists lists;
+  open_lists(list_memory, &share, &lists);
+  long excess = 0;
+  for (int row = share.row; row < share.end_row; ++row) {
+    int row_end = cell_start[(row + 1) * p->cells_x];
+    for (int begin = cell_start[row * p->cells_x]; begin < row_end; begin += SQUALL_LANES) {
+      Block block;
+      make_block(p, x, row, begin, row_end, &block);
+      excess += prepare_block(records, densities, isolations, neighbours, &places, cell_start, solve, p, boxes,
+                              substeps + step, stride, &block, &lists);
+    }
+  }
+  shares[get_global_id(0)] = excess;
+}
+
+#endif

@@ -1,0 +1,57 @@
+/* dfsph, a light pass: reads and writes what push.cl does; reads also the lists of neighbours. One work-item = one
+   share of the rows, in blocks of SQUALL_LANES particles. For CPU devices. */
+#include "shared.h"
+#include "switches.h"
+
+#if SQUALL_DFSPH && SQUALL_LANES > 1
+
+#include "solve_blocks.h"
+
+/* Velocities of the block after every particle's change of impulse. */
+static inline void push_block(__constant Params* p, __global float* records, const Places* places,
+                              __global const int* cell_start, __global float* solve, int stride, const Block* block,
+                              const Lanes* a, __global const int* list) {
+  Vector sum = {(Real)(0), (Real)(0), (Real)(0)};
+  Real change = a->pressure_term;
+  Neighbours neighbours;
+  begin_neighbours(p, cell_start, block, a, list, &neighbours);
+  int found[SQUALL_BATCH + 1], count;
+  while ((count = next_neighbours(p, places, &neighbours, found)) > 0) {
+    for (int k = 0; k < count; ++k) {
+      __global const float* b = records + 8 * (size_t)found[k];
+      Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
+      add_scaled(&sum, (change + (Real)(b[3])) * weight_of(p, squared_length(x, y, z)), x, y, z);
+    }
+  }
+  Real scale = (Real)(p->force_scale);
+  Real ex = load_field(solve, SQUALL_OPENING_X, stride, block), ey = load_field(solve, SQUALL_OPENING_Y, stride, block),
+       ez = load_field(solve, SQUALL_OPENING_Z, stride, block);
+  scatter(a->vx + fma(scale, sum.x, change * ex), block, 4, records);
+  scatter(a->vy + fma(scale, sum.y, change * ey), block, 5, records);
+  scatter(a->vz + fma(scale, sum.z, change * ez), block, 6, records);
+  store_field(max0(load_field(solve, SQUALL_IMPULSE, stride, block) + change), SQUALL_IMPULSE, stride, block, solve);
+}
+
+__kernel void push_blocks(__global float* records, __global const float* x, __global const float* y,
+                          __global const float* z, __global const int* cell_start, __global const int* lists,
+                          __global float* solve, __global const SolveState* state, __constant Params* p, int stride,
+                          int this_solve) {
+  if (state->solve != this_solve) return;
+  Places places = {x, y, z};
+  Share share;
+  take_share(p, cell_start, &share);
+  __global const int* list = lists + SQUALL_LIST_ENTRIES * (size_t)share.begin;
+  for (int row = share.row; row < share.end_row; ++row) {
+    int row_end = cell_start[(row + 1) * p->cells_x];
+    for (int begin = cell_start[row * p->cells_x]; begin < row_end; begin += SQUALL_LANES) {
+      Block block;
+      Lanes lanes;
+      make_block(p, x, row, begin, row_end, &block);
+      load_block(records, &places, &block, &lanes);
+      push_block(p, records, &places, cell_start, solve, stride, &block, &lanes, list);
+      list += 1 + max(*list, 0);
+    }
+  }
+}
+
+#endif

@@ -1,0 +1,73 @@
+/* dfsph, a light pass: reads and writes what rate.cl does, errors as this work-item's share of their sum; reads also
+   the lists of neighbours. One work-item = one share of the rows, in blocks of SQUALL_LANES particles. For CPU
+   devices. */
+#include "shared.h"
+#include "switches.h"
+
+#if SQUALL_DFSPH && SQUALL_LANES > 1
+
+#include "solve_blocks.h"
+
+static inline Real receding_sum(__constant Params* p, __global const float* records, const Places* places,
+                                __global const int* cell_start, const Block* block, const Lanes* a,
+                                __global const int* list) {
+  Real sum = (Real)(0);
+  Neighbours neighbours;
+  begin_neighbours(p, cell_start, block, a, list, &neighbours);
+  int found[SQUALL_BATCH + 1], count;
+  while ((count = next_neighbours(p, places, &neighbours, found)) > 0) {
+    for (int k = 0; k < count; ++k) {
+      __global const float* b = records + 8 * (size_t)found[k];
+      Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
+      Real receding = dot_product(x, y, z, a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
+      sum = fma(weight_of(p, squared_length(x, y, z)), receding, sum);
+    }
+  }
+  return sum;
+}
+
+/* The block's part of an iteration, `sum` being its receding_sum. Returns the sum of its errors. */
+static inline long iterate_block(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* a,
+                                 Real sum, float momentum, int stride, __global float* records, __global float* solve) {
+  Real along = dot_product(a->vx, a->vy, a->vz, load_field(solve, SQUALL_OPENING_X, stride, block),
+                           load_field(solve, SQUALL_OPENING_Y, stride, block),
+                           load_field(solve, SQUALL_OPENING_Z, stride, block));
+  Real dt = (Real)(now->dt), impulse = load_field(solve, SQUALL_IMPULSE, stride, block);
+  Real inverse = load_field(solve, SQUALL_INVERSE_RESPONSE, stride, block);
+  Real before = load_field(solve, SQUALL_PROJECTED, stride, block);
+  Real lack = lack_of_compression(load_field(solve, SQUALL_ROOM, stride, block), dt,
+                                  compression_rate(sum, (Real)(p->force_scale), along));
+  Real projected = projected_impulse(impulse, lack, (Real)(now->relaxation_rate), inverse);
+  store_field(projected, SQUALL_PROJECTED, stride, block, solve);
+  scatter(extrapolated_impulse(projected, before, (Real)(momentum)) - impulse, block, 3, records);
+  Real response = load_field(solve, SQUALL_RESPONSE, stride, block);
+  return sum_of_terms(solve_error(lack, impulse, dt, response, inverse), block);
+}
+
+__kernel void rate_blocks(__global float* records, __global const float* x, __global const float* y,
+                          __global const float* z, __global const int* cell_start, __global const int* lists,
+                          __global float* solve, __global long* shares, __global const SolveState* state,
+                          __constant Params* p, __global const Substep* substeps, int stride, int step,
+                          int this_solve) {
+  if (state->solve != this_solve) return;
+  Places places = {x, y, z};
+  Share share;
+  take_share(p, cell_start, &share);
+  __global const int* list = lists + SQUALL_LIST_ENTRIES * (size_t)share.begin;
+  long errors = 0;
+  for (int row = share.row; row < share.end_row; ++row) {
+    int row_end = cell_start[(row + 1) * p->cells_x];
+    for (int begin = cell_start[row * p->cells_x]; begin < row_end; begin += SQUALL_LANES) {
+      Block block;
+      Lanes lanes;
+      make_block(p, x, row, begin, row_end, &block);
+      load_block(records, &places, &block, &lanes);
+      Real sum = receding_sum(p, records, &places, cell_start, &block, &lanes, list);
+      errors += iterate_block(p, substeps + step, &block, &lanes, sum, state->momentum, stride, records, solve);
+      list += 1 + max(*list, 0);
+    }
+  }
+  shares[get_global_id(0)] = errors;
+}
+
+#endif
