@@ -229,7 +229,7 @@ const BadScene k_together[] = {
      "31:10: stop_s = 2 in [[rain]] 1 is not after start_s = 2"},
     {"negative_pressure", "cfl = 0.4", "negative_pressure = true",
      "8:21: negative_pressure = true needs pressure = \"mueller\" in [solver]"},
-    {"dfsph_sees_too_far", "0.1", "0.1\nsupport_ratio = 2.3\n[solver]\npressure = 'dfsph'",
+    {"dfsph_sees_too_far", "0.1\n[solver]", "0.1\nsupport_ratio = 2.3\n[solver]\npressure = 'dfsph'",
      "7:17: support_ratio = 2.3 is too large for dfsph"},
     {"xsph", "cfl = 0.4", "pressure = 'wcsph'\nxsph = 0.05", "9:8: xsph = 0.05 needs pressure dfsph, not wcsph"},
 };
