@@ -9,7 +9,7 @@ namespace squall {
 enum class Pressure {
   mueller,  ///< Müller, Charypar, Gross 2003, as the 2016 report prints it
   wcsph,    ///< weakly compressible: Tait's equation, one kernel for density and force
-  dfsph,    ///< incompressible: Bender & Koschier 2015/2017; in this version on the reference and omp backends
+  dfsph,    ///< incompressible: Bender & Koschier 2015/2017
 };
 
 enum class Precision { single_precision, double_precision };
