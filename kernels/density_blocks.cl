@@ -70,17 +70,14 @@ static inline void sum_kernel(__constant Params* p, const Places* places, __glob
   Search search;
   begin_search(p, cell_start, block, x, y, z, &search);
   int found[SQUALL_BATCH + 1];
-  int batches = 0, kept = 0, count;
-  while ((count = search_batch(p, places, &search, found)) > 0) {
+  int batches = 0, kept;
+  do {
+    int count = search_batch(p, places, &search, found);
     kept = sum_batch(p, places, x, y, z, count, found, sum);
     if (statistics) count_batch(p, places, x, y, z, kept, found, sum);
     ++batches;
-  }
-  /* Not kept in this version: forces from kept lists differed in a last bit from those of a search (collapse, frame 28,
-     16 lanes). Everybody searches again until that is understood. */
-  (void)kept;
-  (void)batches;
-  add_list(lists, block, found, SQUALL_NO_LIST);
+  } while (!search_ended(&search));
+  add_list(lists, block, found, batches == 1 ? kept : SQUALL_NO_LIST);
 }
 
 static inline void density_of_block(__global float* records, __global float* densities, __global float* isolations,

@@ -50,11 +50,12 @@ static inline void sum_candidates(__constant Params* p, const Places* places, __
   Search search;
   begin_search(p, cell_start, block, x, y, z, &search);
   int found[SQUALL_BATCH + 1];
-  int batches = 0, kept = 0, count;
-  while ((count = search_batch(p, places, &search, found)) > 0) {
+  int batches = 0, kept;
+  do {
+    int count = search_batch(p, places, &search, found);
     kept = sum_batch(p, places, x, y, z, count, found, sums);
     ++batches;
-  }
+  } while (!search_ended(&search));
   add_list(lists, block, found, batches == 1 ? kept : SQUALL_NO_LIST);
 }
 

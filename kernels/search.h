@@ -78,8 +78,11 @@ static inline Mask near_bounds(__constant Params* p, const Places* places, const
   return squared_length(x, y, z) < (Real)(p->list_squared);
 }
 
-/* Collects the next candidates, at most SQUALL_BATCH; 0 at the end. `found` has room for one more. Without a branch but
-   the loop's own: how long the ranges are, no processor can guess. */
+static inline int search_ended(const Search* search) { return search->range == search->count; }
+
+/* Collects the next candidates, at most SQUALL_BATCH, and writes over one entry of `found` behind them, also if there
+   are none: what the last batch left there is gone. Without a branch but the loop's own: how long the ranges are, no
+   processor can guess. */
 static inline int search_batch(__constant Params* p, const Places* places, Search* search, int* found) {
   uint count = 0; /* unsigned: an index without a sign to extend */
   int range = search->range, j = search->next;

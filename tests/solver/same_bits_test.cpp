@@ -172,6 +172,30 @@ TEST(SameBitsInCrowds, HoweverManyNeighboursThereAre) {
   }
 }
 
+class SameBitsInDenseCrowds : public testing::TestWithParam<Pressure> {};
+
+INSTANTIATE_TEST_SUITE_P(Pressures, SameBitsInDenseCrowds,
+                         testing::Values(Pressure::wcsph, Pressure::mueller, Pressure::dfsph),
+                         [](const auto& info) { return to_string(info.param); });
+
+// About as many candidates near a block as a search batch holds: among them blocks whose batch is full before the search
+// has come to its end, and finds no more.
+TEST_P(SameBitsInDenseCrowds, WhereOneBatchIsJustFull) {
+  const Scene scene = one_substep_tank(2000);
+  const double reach = scene.support_radius();
+  const Eigen::Vector3d corner(0.15, 0.15, 0.1);
+  const std::vector<BackendUnderTest> backends = {omp("2_threads", 2, Simd::best, GetParam()),
+                                                  opencl("float8", Simd::avx2, GetParam()),
+                                                  opencl("float16", Simd::avx512, GetParam())};
+  for (unsigned seed = 0; seed < 24 && !HasFatalFailure(); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const double edge = (2.8 + 0.07 * seed) * reach;
+    const auto first = backends.front().make(scene);
+    first->load(random_particles(2000, corner, corner + Eigen::Vector3d::Constant(edge), 0, seed));
+    LockStep(backends, scene, first->state()).run(1);
+  }
+}
+
 // Lost ones between others and in long runs: more than the OpenCL backend's sorts keep in one bin
 // (kernels/sort_bins.h).
 TEST(SameBitsOfLostOnes, HoweverManyAreLost) {
