@@ -16,7 +16,7 @@ Workload load_workload(const Options& options) {
   if (options.particles) scale_to_particles(scene, *options.particles);
   if (options.dt_max_s) scene.solver.dt_max_s = *options.dt_max_s;
   validate(scene);
-  workload.pressure = options.pressure ? *options.pressure : scene.solver.pressure.value_or(Pressure::wcsph);
+  workload.pressure = options.pressure ? *options.pressure : scene.solver.pressure.value_or(Settings{}.pressure);
   if (const std::string problem = ratio_problem(scene, workload.pressure); !problem.empty())
     throw InputError(options.scene + ": " + problem);  // before anything is written
   workload.info = {scene.name, scene_hash(scene), particle_capacity(scene)};

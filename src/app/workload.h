@@ -12,7 +12,7 @@ namespace squall::app {
 /// A scene as the options change it.
 struct Workload {
   Scene scene;
-  Pressure pressure = Pressure::wcsph;
+  Pressure pressure = Settings{}.pressure;
   harness::SceneInfo info;
 };
 

@@ -14,7 +14,7 @@ namespace squall {
 /// phase, what is held and what rains follow from the frame's number and the scene.
 struct Checkpoint {
   std::string scene_text;  ///< checkpoint_scene_text() of the scene it was saved from
-  Pressure pressure = Pressure::wcsph;
+  Pressure pressure = Settings{}.pressure;
   Precision precision = Precision::single_precision;  ///< that the state was computed in
   std::uint64_t seed = 1;                             ///< of the rain
   double energy_in_j = 0.0;  ///< of all particles brought in since the start, which energy drift is measured against

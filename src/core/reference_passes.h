@@ -60,7 +60,7 @@ struct Walls {
 
 /// What a scene names decides which terms there are.
 struct Terms {
-  Pressure pressure = Pressure::wcsph;
+  Pressure pressure{};
   bool viscosity = false;
   bool drag = false;
   bool smoothing = false;  ///< dfsph: [solver] xsph

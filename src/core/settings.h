@@ -42,7 +42,7 @@ void check(const WorkSizes& work);
 
 /// What a run is, beside its scene. The defaults are the best that this version has.
 struct Settings {
-  Pressure pressure = Pressure::wcsph;
+  Pressure pressure = Pressure::dfsph;
   Precision precision = Precision::single_precision;
   Simd simd = Simd::best;
   Readback readback = Readback::mapped;

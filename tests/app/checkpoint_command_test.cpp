@@ -238,7 +238,7 @@ TEST(CheckpointCommand, OtherRunsAreRefusedByName) {
     EXPECT_THAT(outcome.err, HasSubstr(why));
   };
   refused({}, "add --seed 5");
-  refused({"--seed", "5", "--pressure", "mueller"}, "add --pressure wcsph");
+  refused({"--seed", "5", "--pressure", "mueller"}, "add --pressure dfsph");
   refused({"--seed", "5", "--dt-max", "0.001"}, "[solver] dt_max_s is 0.005 there and 0.001 here");
   refused({"--seed", "5", "--particles", "500"}, "[fluid] spacing_m is 0.05 there");
   std::filesystem::resize_file(file, 100);

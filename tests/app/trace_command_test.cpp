@@ -29,8 +29,8 @@ std::map<std::string, std::vector<json>> events_of(const json& trace, int proces
 
 TEST(Trace, ARunOnOmp) {
   const TemporaryFolder folder;
-  const Outcome outcome = squall(tiny(
-      "run", {"--backend", "omp", "--frames", "3", "--trace", folder / "trace.json", "--json", folder / "run.json"}));
+  const Outcome outcome = squall(tiny("run", {"--backend", "omp", "--pressure", "wcsph", "--frames", "3", "--trace",
+                                              folder / "trace.json", "--json", folder / "run.json"}));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json trace = json::parse(text_of(folder / "trace.json"));
   const json run = json::parse(text_of(folder / "run.json"))["runs"][0];

@@ -259,6 +259,7 @@ TEST(Readback, QuantizedStatesARangeThatHoldsEverything) {
 
 TEST(Profile, SaysWhatThePhasesCost) {
   Settings settings;
+  settings.pressure = Pressure::wcsph;
   settings.profile = true;
   for (const Readback mode : k_delivering) {
     const auto solver = make(tiny_scene(), mode, settings);

@@ -228,7 +228,7 @@ TEST(Checkpoint, ValuesThatNoRunHasAreRefused) {
 
 std::string origin_error(const Scene& saved, const Scene& given, const Settings& settings = {}) {
   Checkpoint checkpoint;
-  checkpoint.scene_text = checkpoint_scene_text(saved, Pressure::wcsph);
+  checkpoint.scene_text = checkpoint_scene_text(saved, Pressure::dfsph);
   try {
     check_origin(checkpoint, given, settings, "run.sqc");
   } catch (const InputError& error) {
@@ -258,7 +258,7 @@ TEST(CheckpointOrigin, WhatDiffersIsNamed) {
   EXPECT_THAT(origin_error(other, scene), HasSubstr("[[block]] 2 min_m is [0.0, 0.0, 0.0] there and not set here"));
   Settings settings;
   settings.pressure = Pressure::mueller;
-  EXPECT_THAT(origin_error(scene, scene, settings), HasSubstr("add --pressure wcsph"));
+  EXPECT_THAT(origin_error(scene, scene, settings), HasSubstr("add --pressure dfsph"));
   settings = {};
   settings.seed = 2;
   EXPECT_THAT(origin_error(scene, scene, settings), HasSubstr("add --seed 1"));

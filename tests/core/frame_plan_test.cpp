@@ -54,7 +54,7 @@ TEST(TimeStepLimit, OfDfsphIsMotionAlone) {
   Scene scene = empty_tank();  // dx = 0.05 m, 1e-3 m^2/s
   scene.solver.dt_max_s = 1;
   const double tolerance = rounding<double>(16);
-  EXPECT_NEAR(time_step_limit(scene, Pressure::dfsph, 5), 0.4 * 0.05 / 5, tolerance);
+  EXPECT_NEAR(time_step_limit(scene, Pressure::dfsph, 5), 1.5 * 0.4 * 0.05 / 5, tolerance);
   EXPECT_NEAR(time_step_limit(scene, Pressure::dfsph, 0), 0.03 * 0.01 / 1e-3, tolerance);
   scene.fluid.viscosity_m2_s.reset();
   EXPECT_EQ(time_step_limit(scene, Pressure::dfsph, 0), 1);

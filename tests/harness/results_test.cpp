@@ -72,6 +72,7 @@ TEST(Json, HasTheNamesOfTheResultFormat) {
 
 TEST(Json, OfDfsphTellsWhatSolvesTook) {
   Row row = fake_row();
+  row.plan.settings.pressure = Pressure::wcsph;
   EXPECT_FALSE(to_json(row).contains("density_iterations"));
   row.plan.settings.pressure = Pressure::dfsph;
   row.density_iterations_mean = 3.5;

@@ -128,7 +128,8 @@ StressVerdict judge(StressResult& result) {
     const bool met = std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
       return !finding.holds() && covers(known, result, finding);
     });
-    if (met) result.why += (result.why.empty() ? "" : "; ") + std::string(known.why);
+    if (met && result.why.find(known.why) == std::string::npos)
+      result.why += (result.why.empty() ? "" : "; ") + std::string(known.why);
     out_of_date = out_of_date || !met;
   }
   if (unknown) return StressVerdict::failed;
