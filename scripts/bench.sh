@@ -45,8 +45,7 @@ for part in machine omp opencl; do
   # Its own table is one line per row and statistic; ours follows.
   "$program" "--$effort" --benchmark_out="$folder/$part.json.new" --benchmark_out_format=json >/dev/null 2>"$log" ||
     { status=1 && grep '^error' "$log" >&2 || say "bench_$part: a row failed; see the table"; }
-  python3 -m json.tool "$folder/$part.json.new" >/dev/null 2>&1 || fail "bench_$part left no result"
-  mv "$folder/$part.json.new" "$folder/$part.json"
+  python3 scripts/bench_rows.py "$folder/$part.json.new" "$folder/$part.json" || fail "bench_$part left no result"
 done
 say "$folder"
 python3 scripts/bench_table.py "$folder"
