@@ -39,9 +39,9 @@ Eigen::Vector3d release_point(const Scene& scene, const Scene::Rain& rain, std::
   const double above =
       fall * due_fraction(number, to_units(particles_per_second(scene, rain)), to_units(scene.time.frame_rate_hz));
   const Eigen::Vector2d area = rain.area_max_m - rain.area_min_m;
-  return Eigen::Vector3d{rain.area_min_m.x() + across * area.x(), rain.height_m + above,
-                         rain.area_min_m.y() + along * area.y()} -
-         scene.container.min_m;
+  const Eigen::Vector3d corner =
+      Eigen::Vector3d{rain.area_min_m.x(), rain.height_m, rain.area_min_m.y()} - scene.container.min_m;
+  return corner + Eigen::Vector3d{across * area.x(), above, along * area.y()};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "harness/fake_solver.h"
@@ -182,6 +183,34 @@ TEST(Csv, ParticlesAreInWorldCoordinatesInOrderOfIds) {
   std::ostringstream out;
   write_particles(out, scene, state);
   EXPECT_EQ(out.str(), "id,x,y,z,vx,vy,vz\n1,1.5,2.25,3.125,1,0,-2\n2,1.75,2.25,3.125,1.5,0,0\n");
+}
+
+// World coordinates are written as doubles, in as many digits as bring them back: what an origin 10 km away takes from
+// a position is half a unit of a double there, 9.1e-13 m, and no single-precision position is lost.
+TEST(ParticleFile, KeepsPositionsFarFromTheOrigin) {
+  Scene scene = small_scene();
+  const Eigen::Vector3d away(10000, 0, -10000);
+  scene.container.max_m += away - scene.container.min_m;
+  scene.container.min_m = away;
+  State state;
+  std::vector<Eigen::Vector3f> places;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const float at = 0.8f * static_cast<float>(i + 1) / 101.0f;
+    places.emplace_back(at, 0.8f - at, 0.5f * at);
+    state.particles.add(i, places.back().cast<double>(), Eigen::Vector3d::Zero());
+  }
+  std::stringstream text;
+  write_particles(text, scene, state);
+  std::string line;
+  std::getline(text, line);
+  for (const Eigen::Vector3f& place : places) {
+    unsigned id = 0;
+    Eigen::Vector3d x;
+    ASSERT_TRUE(std::getline(text, line));
+    ASSERT_EQ(std::sscanf(line.c_str(), "%u,%lf,%lf,%lf", &id, &x[0], &x[1], &x[2]), 4);
+    EXPECT_LE((x - away - place.cast<double>()).cwiseAbs().maxCoeff(), std::ldexp(1.0, 13 - 53));
+    EXPECT_EQ((x - away).cast<float>(), place) << "particle " << id;
+  }
 }
 
 }  // namespace
