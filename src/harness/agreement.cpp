@@ -46,10 +46,6 @@ class Differences {
   std::optional<Difference> result_;
 };
 
-bool is_strict(const Run& run) {
-  return run.plan().strict && run.plan().settings.precision == Precision::single_precision;
-}
-
 /// Index of the frame that a run did last, from 0.
 std::uint64_t last_frame(const Run& run) { return run.state().clock.frame - 1; }
 
@@ -88,40 +84,49 @@ std::optional<Difference> difference_between(const Particles& a, const Particles
   return differences.result();
 }
 
-double rounding_tolerance_dx(const Scene& scene, int substeps) {
+double rounding_tolerance_dx(const Scene& scene, int substeps, Precision precision) {
   constexpr double k_roundings_per_substep = 16.0;
+  const double epsilon = precision == Precision::single_precision ? std::numeric_limits<float>::epsilon()
+                                                                  : std::numeric_limits<double>::epsilon();
   const double coordinate_dx = scene.container_size().maxCoeff() / scene.fluid.spacing_m;
-  return k_roundings_per_substep * substeps * std::numeric_limits<float>::epsilon() * coordinate_dx;
+  return k_roundings_per_substep * substeps * epsilon * coordinate_dx;
 }
 
 void AgreementCheck::after_round(const std::vector<const Run*>& runs) {
   ++rounds_;
-  std::vector<const Run*> taking_part, strict, tolerant;
-  for (const Run* run : runs) {
-    if (run->plan().backend == "reference") continue;
-    taking_part.push_back(run);
-    if (run->steps_done() == rounds_) (is_strict(*run) ? strict : tolerant).push_back(run);
-  }
+  std::vector<const Run*> taking_part;
+  for (const Run* run : runs)
+    if (run->plan().backend != "reference") taking_part.push_back(run);
   stopped_ = who_stopped(taking_part);
+  compare_precision(Precision::single_precision, taking_part, single_);
+  compare_precision(Precision::double_precision, taking_part, double_);
+}
+
+void AgreementCheck::compare_precision(Precision precision, const std::vector<const Run*>& runs, Strict& found) {
+  std::vector<const Run*> strict, tolerant;
+  for (const Run* run : runs)
+    if (run->plan().settings.precision == precision && run->steps_done() == rounds_)
+      (run->plan().strict ? strict : tolerant).push_back(run);
   if (strict.size() > 1) {
-    ++frames_compared_;
-    strict_runs_ = std::max(strict_runs_, strict.size());
-    compare_bits(strict);
-    compare_failures(strict);
+    ++found.frames;
+    found.runs = std::max(found.runs, strict.size());
+    compare_bits(strict, found);
+    compare_failures(strict, found);
   }
   if (rounds_ > 1 || strict.empty()) return;
-  tolerant_runs_ = tolerant.size();
+  tolerant_runs_ += tolerant.size();
   for (const Run* run : tolerant) compare_by_tolerance(*strict.front(), *run);
 }
 
-void AgreementCheck::compare_bits(const std::vector<const Run*>& strict) {
-  if (!agreement_.bitwise) agreement_.bitwise = true;
-  if (!*agreement_.bitwise) return;
+void AgreementCheck::compare_bits(const std::vector<const Run*>& strict, Strict& found) {
+  if (!found.bitwise) found.bitwise = true;
+  if (!*found.bitwise) return;
   const Run& expected = *strict.front();
   const auto other = std::find_if(strict.begin(), strict.end(),
                                   [&](const Run* run) { return run->state_hash() != expected.state_hash(); });
   if (other == strict.end()) return;
-  agreement_.bitwise = agreement_.agree = false;
+  found.bitwise = agreement_.agree = false;
+  if (!first_label_.empty()) return;
   agreement_.first_difference_frame = last_frame(expected);
   agreement_.difference =
       difference_between(expected.state().particles, (*other)->state().particles, expected.scene().fluid.spacing_m);
@@ -129,12 +134,12 @@ void AgreementCheck::compare_bits(const std::vector<const Run*>& strict) {
   second_label_ = (*other)->plan().label;
 }
 
-void AgreementCheck::compare_failures(const std::vector<const Run*>& strict) {
+void AgreementCheck::compare_failures(const std::vector<const Run*>& strict, Strict& found) {
   const auto has_failed = [](const Run* run) { return !run->error().empty(); };
   const auto failed = std::find_if(strict.begin(), strict.end(), has_failed);
   const auto sound = std::find_if_not(strict.begin(), strict.end(), has_failed);
   if (failed == strict.end() || sound == strict.end() || !failed_in_one_.empty()) return;
-  agreement_.bitwise = agreement_.agree = false;
+  found.bitwise = agreement_.agree = false;
   if (!agreement_.first_difference_frame) agreement_.first_difference_frame = last_frame(**failed);
   failed_in_one_ = fmt::format("; {} failed in frame {} where {} did not", (*failed)->plan().label,
                                last_frame(**failed), (*sound)->plan().label);
@@ -143,8 +148,8 @@ void AgreementCheck::compare_failures(const std::vector<const Run*>& strict) {
 void AgreementCheck::compare_by_tolerance(const Run& expected, const Run& run) {
   const double spacing = expected.scene().fluid.spacing_m;
   const auto difference = difference_between(expected.state().particles, run.state().particles, spacing);
-  const double tolerance =
-      rounding_tolerance_dx(expected.scene(), std::max(1, expected.state().clock.previous_substeps));
+  const double tolerance = rounding_tolerance_dx(
+      expected.scene(), std::max(1, expected.state().clock.previous_substeps), expected.plan().settings.precision);
   if (!difference || difference->max_position_error_dx <= tolerance) return;
   agreement_.agree = false;
   out_of_tolerance_ +=
@@ -152,12 +157,23 @@ void AgreementCheck::compare_by_tolerance(const Run& expected, const Run& run) {
                   difference->max_position_error_dx, expected.plan().label, tolerance);
 }
 
+std::string AgreementCheck::same_bits_text() const {
+  const std::string in_single =
+      single_.bitwise ? fmt::format("{} runs after each of {}", single_.runs, frames_text(single_.frames)) : "";
+  const std::string in_double = double_.bitwise ? fmt::format("{} double-precision runs after each of {}", double_.runs,
+                                                              frames_text(double_.frames))
+                                                : "";
+  return "same bits in " + in_single + (single_.bitwise && double_.bitwise ? ", and in " : "") + in_double;
+}
+
 Agreement AgreementCheck::result() const {
   Agreement result = agreement_;
+  if (single_.bitwise || double_.bitwise)
+    result.bitwise = single_.bitwise.value_or(true) && double_.bitwise.value_or(true);
   if (!result.bitwise) {
-    result.verdict = "nothing to compare bit by bit: fewer than two strict single-precision runs did a frame";
+    result.verdict = "nothing to compare bit by bit: fewer than two strict runs of one precision did a frame";
   } else if (first_label_.empty()) {
-    result.verdict = fmt::format("same bits in {} runs after each of {}", strict_runs_, frames_text(frames_compared_));
+    result.verdict = same_bits_text();
   } else {
     result.verdict = fmt::format("{} and {} differ first after frame {}", first_label_, second_label_,
                                  *result.first_difference_frame);

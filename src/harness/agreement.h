@@ -12,8 +12,9 @@ namespace squall::harness {
 
 /// Whether the runs of a comparison are the same water.
 struct Agreement {
-  /// All single-precision strict runs had the same state hash after every frame that at least two of them did, and none
-  /// ended in a wrong state where another did not; empty if there was no such frame.
+  /// All strict runs in single precision had the same state hash after every frame that at least two of them did, and
+  /// none ended in a wrong state where another did not; those in double precision likewise, among themselves. Empty if
+  /// there was no such frame.
   std::optional<bool> bitwise;
   bool agree = true;                                    ///< false sets the exit code
   std::optional<std::uint64_t> first_difference_frame;  ///< index, from 0
@@ -25,11 +26,11 @@ struct Agreement {
 /// them has, or that is not finite, counts as infinitely far away.
 std::optional<Difference> difference_between(const Particles& a, const Particles& b, double spacing);
 
-/// Compares runs in lock-step. Strict single-precision runs must match bit by bit. Runs on devices that promise no bits
-/// are held to a tolerance after the first frame, before chaos (25 1/s in a dam break, docs/physics.md) takes over:
-/// each of n sub-steps may add a few roundings of a coordinate as large as the container. The reference backend never
-/// takes part. A run that stops early is compared up to and including its last frame; a device that fails leaves no
-/// state, so it is named but is no disagreement.
+/// Compares runs in lock-step, each with those of its own precision. Strict runs must match bit by bit. Runs on devices
+/// that promise no bits are held to a tolerance after the first frame, before chaos (25 1/s in a dam break,
+/// docs/physics.md) takes over: each of n sub-steps may add a few roundings of a coordinate as large as the container.
+/// The reference backend never takes part. A run that stops early is compared up to and including its last frame; a
+/// device that fails leaves no state, so it is named but is no disagreement.
 class AgreementCheck {
  public:
   /// Call after each frame of the runs, from the first on; runs that have stopped may stay in the list.
@@ -37,19 +38,28 @@ class AgreementCheck {
   Agreement result() const;
 
  private:
-  void compare_bits(const std::vector<const Run*>& strict);
-  void compare_failures(const std::vector<const Run*>& strict);
+  /// The strict runs of one precision.
+  struct Strict {
+    std::optional<bool> bitwise;  ///< as in Agreement
+    std::size_t runs = 0;         ///< most that were compared at once
+    int frames = 0;               ///< with at least two of them
+  };
+
+  void compare_precision(Precision precision, const std::vector<const Run*>& runs, Strict& found);
+  void compare_bits(const std::vector<const Run*>& strict, Strict& found);
+  void compare_failures(const std::vector<const Run*>& strict, Strict& found);
   void compare_by_tolerance(const Run& expected, const Run& run);
+  std::string same_bits_text() const;
 
   Agreement agreement_;
+  Strict single_, double_;
   std::string first_label_, second_label_;
   std::string failed_in_one_, out_of_tolerance_, stopped_;  ///< parts of the verdict
-  std::size_t strict_runs_ = 0, tolerant_runs_ = 0;         ///< most that were compared at once
+  std::size_t tolerant_runs_ = 0;                           ///< that were compared
   int rounds_ = 0;
-  int frames_compared_ = 0;  ///< with at least two strict runs
 };
 
 /// Largest distance in spacings that rounding explains after one frame of `substeps` sub-steps.
-double rounding_tolerance_dx(const Scene& scene, int substeps);
+double rounding_tolerance_dx(const Scene& scene, int substeps, Precision precision);
 
 }  // namespace squall::harness

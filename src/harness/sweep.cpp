@@ -272,7 +272,7 @@ Agreement overall_agreement(const Sweep& sweep) {
                                     [](const SweepPoint& point) { return !point.row.plan.strict; });
   all.verdict = all.bitwise
                     ? fmt::format("the same bits at {} of {} sizes, after every frame", compared, sweep.sizes.size())
-                    : "nothing to compare bit by bit: fewer than two strict single-precision runs did a frame";
+                    : "nothing to compare bit by bit: fewer than two strict runs of one precision did a frame";
   if (tolerant && all.bitwise) all.verdict += "; devices that promise no bits within tolerance after the first frame";
   return all;
 }

@@ -156,13 +156,34 @@ TEST(Agreement, DevicesThatFailAtOnceLeaveNothingToCompare) {
   EXPECT_NE(agreement.verdict.find("all failed and stopped after 0 frames"), std::string::npos) << agreement.verdict;
 }
 
-TEST(Agreement, TheReferenceAndDoublePrecisionTakeNoPart) {
-  RunPlan in_double = short_plan("d");
-  in_double.settings.precision = Precision::double_precision;
+RunPlan double_plan(const std::string& label) {
+  RunPlan plan = short_plan(label);
+  plan.settings.precision = Precision::double_precision;
+  return plan;
+}
+
+TEST(Agreement, TheReferenceTakesNoPartAndPrecisionsAreNotComparedWithEachOther) {
   const Agreement agreement =
-      agreement_of({{short_plan("a"), {}}, {short_plan("r", "reference"), differing_from(0)}, {in_double, {}}});
+      agreement_of({{short_plan("a"), {}}, {short_plan("r", "reference"), differing_from(0)}, {double_plan("d"), {}}});
   EXPECT_FALSE(agreement.bitwise);
   EXPECT_TRUE(agreement.agree);
+}
+
+TEST(Agreement, RunsInDoublePrecisionAreComparedAmongThemselves) {
+  const Agreement alone = agreement_of({{double_plan("d"), {}}, {double_plan("e"), {}}});
+  EXPECT_EQ(alone.bitwise, true);
+  EXPECT_EQ(alone.verdict, "same bits in 2 double-precision runs after each of 8 frames");
+  const Agreement beside =
+      agreement_of({{short_plan("a"), {}}, {double_plan("d"), {}}, {short_plan("b"), {}}, {double_plan("e"), {}}});
+  EXPECT_EQ(beside.bitwise, true);
+  EXPECT_EQ(beside.verdict,
+            "same bits in 2 runs after each of 8 frames, and in 2 double-precision runs after each of 8 frames");
+  const Agreement differing = agreement_of(
+      {{short_plan("a"), {}}, {double_plan("d"), {}}, {short_plan("b"), {}}, {double_plan("e"), differing_from(3)}});
+  EXPECT_EQ(differing.bitwise, false);
+  EXPECT_FALSE(differing.agree);
+  EXPECT_EQ(differing.first_difference_frame, 3u);
+  EXPECT_NE(differing.verdict.find("d and e differ first after frame 3"), std::string::npos) << differing.verdict;
 }
 
 TEST(Agreement, DevicesThatPromiseNoBitsAreHeldToATolerance) {
@@ -178,8 +199,10 @@ TEST(Agreement, DevicesThatPromiseNoBitsAreHeldToATolerance) {
 
 TEST(Agreement, ToleranceGrowsWithStepsAndCoordinates) {
   Scene scene = small_scene();
-  EXPECT_DOUBLE_EQ(rounding_tolerance_dx(scene, 10),
+  EXPECT_DOUBLE_EQ(rounding_tolerance_dx(scene, 10, Precision::single_precision),
                    16.0 * 10.0 * 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon()));
+  EXPECT_DOUBLE_EQ(rounding_tolerance_dx(scene, 10, Precision::double_precision),
+                   16.0 * 10.0 * 8.0 * std::numeric_limits<double>::epsilon());
 }
 
 }  // namespace
