@@ -17,7 +17,7 @@ typedef struct {
 #endif
 } Lanes;
 
-static inline void load_block(__global const float* records, const Places* places, const Block* block, Lanes* lanes) {
+static inline void load_block(__global const Scalar* records, const Places* places, const Block* block, Lanes* lanes) {
   lanes->x = load_own(places->x, block);
   lanes->y = load_own(places->y, block);
   lanes->z = load_own(places->z, block);
@@ -29,7 +29,7 @@ static inline void load_block(__global const float* records, const Places* place
 }
 
 #if !SQUALL_WCSPH
-static inline void load_pressure(__constant Params* p, __global const float* densities, const Block* block,
+static inline void load_pressure(__constant Params* p, __global const Scalar* densities, const Block* block,
                                  Lanes* lanes) {
   lanes->density = gather_value(densities, block);
   lanes->pressure = mueller_pressure(lanes->density, (Real)(p->stiffness), (Real)(p->tension));
@@ -74,7 +74,7 @@ typedef struct {
   Vector push;
 } PairSums;
 
-static inline void measure_pair(const Lanes* a, __global const float* b, int k, Stretch* s) {
+static inline void measure_pair(const Lanes* a, __global const Scalar* b, int k, Stretch* s) {
   s->x[k] = a->x - (Real)(b[0]);
   s->y[k] = a->y - (Real)(b[1]);
   s->z[k] = a->z - (Real)(b[2]);
@@ -84,7 +84,7 @@ static inline void measure_pair(const Lanes* a, __global const float* b, int k, 
       dot_product(s->x[k], s->y[k], s->z[k], a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
 }
 
-static inline void weigh_pair(__constant Params* p, const Lanes* a, __global const float* b, int k, Stretch* s,
+static inline void weigh_pair(__constant Params* p, const Lanes* a, __global const Scalar* b, int k, Stretch* s,
                               PairSums* sums) {
   Real r = s->r[k], r2 = s->r2[k];
   Real slope = cubic_slope(remaining_support(r, (Real)(p->inverse_support)),
@@ -109,14 +109,14 @@ typedef struct {
   Vector push, drag;
 } PairSums;
 
-static inline void measure_pair(const Lanes* a, __global const float* b, int k, Stretch* s) {
+static inline void measure_pair(const Lanes* a, __global const Scalar* b, int k, Stretch* s) {
   s->x[k] = a->x - (Real)(b[0]);
   s->y[k] = a->y - (Real)(b[1]);
   s->z[k] = a->z - (Real)(b[2]);
   s->r[k] = sqrt(squared_length(s->x[k], s->y[k], s->z[k]));
 }
 
-static inline void weigh_pair(__constant Params* p, const Lanes* a, __global const float* b, int k, Stretch* s,
+static inline void weigh_pair(__constant Params* p, const Lanes* a, __global const Scalar* b, int k, Stretch* s,
                               PairSums* sums) {
   Real u = remaining_support(s->r[k], (Real)(p->inverse_support));
   s->numerator[k] = mueller_numerator(u, a->pressure, (Real)(b[7]), (Real)(b[3]));
@@ -139,7 +139,7 @@ static inline Real total(__constant Params* p, const Lanes* a, Real push, Real d
 #endif
 
 /* Adds `count` neighbours, in the order of their list. */
-static inline void sum_stretch(__constant Params* p, __global const float* records, const Lanes* a, const int* list,
+static inline void sum_stretch(__constant Params* p, __global const Scalar* records, const Lanes* a, const int* list,
                                int count, PairSums* sums) {
   Stretch s;
   for (int k = 0; k < count; ++k) measure_pair(a, records + 8 * (size_t)list[k], k, &s);
@@ -147,7 +147,7 @@ static inline void sum_stretch(__constant Params* p, __global const float* recor
   for (int k = 0; k < count; ++k) add_scaled(&sums->push, s.numerator[k] / s.denominator[k], s.x[k], s.y[k], s.z[k]);
 }
 
-static inline void sum_pairs(__constant Params* p, __global const float* records, const Places* places,
+static inline void sum_pairs(__constant Params* p, __global const Scalar* records, const Places* places,
                              __global const int* cell_start, const Block* block, const Lanes* a,
                              __global const int* list, PairSums* sums) {
   int found[SQUALL_BATCH + 1];
@@ -168,7 +168,7 @@ static inline void sum_pairs(__constant Params* p, __global const float* records
 }
 
 static inline void fluid_acceleration(__constant Params* p, __constant Box* boxes, int box_count,
-                                      __global const float* records, const Places* places,
+                                      __global const Scalar* records, const Places* places,
                                       __global const int* cell_start, const Block* block, const Lanes* a,
                                       __global const int* list, Vector* result) {
   PairSums sums;

@@ -7,32 +7,57 @@
 #include "grid.h"
 #include "openings.h"
 
+/* A mask has -1 or 0 per lane, in integers as wide as the lanes. */
+#if SQUALL_DOUBLE
+typedef long MaskLane;
+typedef long2 Mask2;
+typedef long4 Mask4;
+#if SQUALL_LANES == 8
+typedef long8 Mask;
+#define as_mask as_long8
+#define as_real as_double8
+#else
+typedef Mask4 Mask;
+#define as_mask as_long4
+#define as_real as_double4
+#endif
+#else
+typedef int MaskLane;
+typedef int2 Mask2;
+typedef int4 Mask4;
 #if SQUALL_LANES == 16
 typedef int16 Mask;
 #define as_mask as_int16
 #define as_real as_float16
-#define load_lanes(from) vload16(0, from)
-#define store_lanes(value, to) vstore16(value, 0, to)
-#define k_lane_numbers ((Mask)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
-static inline int any_lane(Mask m) {
-  int8 half_lanes = m.lo | m.hi; /* any() costs four times as much on a CPU */
-  int4 quarter = half_lanes.lo | half_lanes.hi;
-  int2 eighth = quarter.lo | quarter.hi;
-  return (eighth.x | eighth.y) != 0;
-}
 #else
 typedef int8 Mask;
 #define as_mask as_int8
 #define as_real as_float8
+#endif
+#endif
+
+#if SQUALL_LANES == 16
+#define load_lanes(from) vload16(0, from)
+#define store_lanes(value, to) vstore16(value, 0, to)
+#define k_lane_numbers ((Mask)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#define any_of_four(m) (((m).lo | (m).hi).lo | ((m).lo | (m).hi).hi)
+#elif SQUALL_LANES == 8
 #define load_lanes(from) vload8(0, from)
 #define store_lanes(value, to) vstore8(value, 0, to)
 #define k_lane_numbers ((Mask)(0, 1, 2, 3, 4, 5, 6, 7))
-static inline int any_lane(Mask m) {
-  int4 quarter = m.lo | m.hi;
-  int2 eighth = quarter.lo | quarter.hi;
-  return (eighth.x | eighth.y) != 0;
-}
+#define any_of_four(m) ((m).lo | (m).hi)
+#else
+#define load_lanes(from) vload4(0, from)
+#define store_lanes(value, to) vstore4(value, 0, to)
+#define k_lane_numbers ((Mask)(0, 1, 2, 3))
+#define any_of_four(m) (m)
 #endif
+
+static inline int any_lane(Mask m) { /* any() costs four times as much on a CPU */
+  Mask4 four = any_of_four(m);
+  Mask2 two = four.lo | four.hi;
+  return (two.x | two.y) != 0;
+}
 
 typedef struct {
   int begin, end; /* sorted indices */
@@ -71,28 +96,28 @@ static inline void take_share(__constant Params* p, __global const int* cell_sta
 }
 
 /* A field of the block's records; lanes past the end repeat the last particle. */
-static inline Real gather(__global const float* records, const Block* block, int field) {
-  float lanes[SQUALL_LANES];
+static inline Real gather(__global const Scalar* records, const Block* block, int field) {
+  Scalar lanes[SQUALL_LANES];
   for (int lane = 0; lane < SQUALL_LANES; ++lane)
     lanes[lane] = records[8 * (size_t)min(block->begin + lane, block->end - 1) + field];
   return load_lanes(lanes);
 }
 
 /* The block's part of an array with a value per sorted particle, likewise. */
-static inline Real gather_value(__global const float* values, const Block* block) {
-  float lanes[SQUALL_LANES];
+static inline Real gather_value(__global const Scalar* values, const Block* block) {
+  Scalar lanes[SQUALL_LANES];
   for (int lane = 0; lane < SQUALL_LANES; ++lane) lanes[lane] = values[min(block->begin + lane, block->end - 1)];
   return load_lanes(lanes);
 }
 
 /* Likewise, where the array can be read SQUALL_LANES - 1 values further than its last particle. */
-static inline Real load_own(__global const float* values, const Block* block) {
+static inline Real load_own(__global const Scalar* values, const Block* block) {
   int last = block->end - 1 - block->begin;
   return select(load_lanes(values + block->begin), (Real)(values[block->end - 1]), k_lane_numbers > (Mask)(last));
 }
 
 /* The block that starts at `begin` in a row that ends at `row_end`; `x` of all sorted particles. */
-static inline void make_block(__constant Params* p, __global const float* x, int row, int begin, int row_end,
+static inline void make_block(__constant Params* p, __global const Scalar* x, int row, int begin, int row_end,
                               Block* block) {
   block->begin = begin;
   block->end = min(begin + SQUALL_LANES, row_end);

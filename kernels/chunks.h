@@ -10,25 +10,28 @@
 namespace squall {
 
 /// What a chunk of particles reports at the end of a frame.
+template <class Scalar>
 struct ChunkSummary {
   std::int64_t density_error;  ///< sum of clamp(max0(rho/rho0 - 1)) 2^32 over active particles
   std::int64_t neighbours;     ///< within H, without self, over active particles
-  float max_speed2;            ///< largest |v|^2 of the frame, m^2/s^2
-  float max_acceleration2;     ///< m^2/s^4
-  float max_density;           ///< relative
+  Scalar max_speed2;           ///< largest |v|^2 of the frame, m^2/s^2
+  Scalar max_acceleration2;    ///< m^2/s^4
+  Scalar max_density;          ///< relative
   std::int32_t lost;
   std::int32_t active;  ///< of all chunks; the first one reports it
   std::int32_t clamps;  ///< likewise, over the frame
 };
-static_assert(sizeof(ChunkSummary) == 40);
+static_assert(sizeof(ChunkSummary<float>) == 40 && sizeof(ChunkSummary<double>) == 56);
 
 }  // namespace squall
 
 #else
 
+#include "shared.h"
+
 typedef struct {
   long density_error, neighbours;
-  float max_speed2, max_acceleration2, max_density;
+  Scalar max_speed2, max_acceleration2, max_density;
   int lost, active, clamps;
 } ChunkSummary;
 

@@ -80,7 +80,7 @@ static inline void sum_kernel(__constant Params* p, const Places* places, __glob
   add_list(lists, block, found, batches == 1 ? kept : SQUALL_NO_LIST);
 }
 
-static inline void density_of_block(__global float* records, __global float* densities, __global float* isolations,
+static inline void density_of_block(__global Scalar* records, __global Scalar* densities, __global Scalar* isolations,
                                     __global int* neighbours, const Places* places, __global const int* cell_start,
                                     __constant Params* p, __constant Box* boxes, __global const Substep* now,
                                     const Block* block, NeighbourLists* lists) {
@@ -103,14 +103,14 @@ static inline void density_of_block(__global float* records, __global float* den
   Real volume_term = (Real)(p->one_half) / density;
   Real pressure_term = mueller_pressure(density, (Real)(p->stiffness), (Real)(p->tension)) * volume_term;
 #endif
-  float density_lanes[SQUALL_LANES], volume_lanes[SQUALL_LANES], pressure_lanes[SQUALL_LANES];
-  int neighbour_lanes[SQUALL_LANES];
+  Scalar density_lanes[SQUALL_LANES], volume_lanes[SQUALL_LANES], pressure_lanes[SQUALL_LANES];
+  MaskLane neighbour_lanes[SQUALL_LANES];
   store_lanes(density, density_lanes);
   store_lanes(volume_term, volume_lanes);
   store_lanes(pressure_term, pressure_lanes);
   store_lanes(sum.neighbours, neighbour_lanes);
 #if SQUALL_DRAG
-  float isolation_lanes[SQUALL_LANES];
+  Scalar isolation_lanes[SQUALL_LANES];
   store_lanes(isolation(kernel_sum, (Real)(p->self_value), (Real)(p->density_scale), share, (Real)(p->steepness)),
               isolation_lanes);
 #endif
@@ -126,9 +126,9 @@ static inline void density_of_block(__global float* records, __global float* den
   }
 }
 
-__kernel void density_blocks(__global float* records, __global float* densities, __global float* isolations,
-                             __global int* neighbours, __global const float* x, __global const float* y,
-                             __global const float* z, __global const int* cell_start, __global int* list_memory,
+__kernel void density_blocks(__global Scalar* records, __global Scalar* densities, __global Scalar* isolations,
+                             __global int* neighbours, __global const Scalar* x, __global const Scalar* y,
+                             __global const Scalar* z, __global const int* cell_start, __global int* list_memory,
                              __constant Params* p, __constant Box* boxes, __global const Substep* substeps, int step) {
   Places places = {x, y, z};
   Share share;

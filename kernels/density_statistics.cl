@@ -7,8 +7,8 @@
 
 #include "density_pass.h"
 
-__kernel void density_statistics(__global const float4* places, __global float* records, __global float* densities,
-                                 __global float* isolations, __global const int* cell_start, __constant Params* p,
+__kernel void density_statistics(__global const Scalar4* places, __global Scalar* records, __global Scalar* densities,
+                                 __global Scalar* isolations, __global const int* cell_start, __constant Params* p,
                                  __constant Box* boxes, __global const Substep* substeps, int step,
                                  __global int* neighbours) {
   int i = (int)get_global_id(0);

@@ -9,20 +9,20 @@
 #include "integrate.h"
 #include "solve_pairs.h"
 
-__kernel void drift(__global float4* records, __global const int* cell_start, __global const float* solve,
+__kernel void drift(__global Scalar4* records, __global const int* cell_start, __global const Scalar* solve,
                     __global int* clamps, __global const SolveState* state, __constant Params* p, __constant Box* boxes,
                     __global const Substep* substeps, int stride, int step, int count) {
   int i = (int)get_global_id(0);
   if (state->solve != SQUALL_SOLVED || i >= count) return;
   if (i >= cell_start[p->cell_count]) {
-    ((__global float*)records)[8 * (size_t)i + 7] = -1.0f;
+    ((__global Scalar*)records)[8 * (size_t)i + 7] = -1.0f;
     return;
   }
   __global const Substep* now = substeps + step;
-  float4 position = records[2 * (size_t)i], velocity = records[2 * (size_t)i + 1];
-  float4 start = (float4)(solve[field_of(SQUALL_START_VX, stride, i)], solve[field_of(SQUALL_START_VY, stride, i)],
-                          solve[field_of(SQUALL_START_VZ, stride, i)], 0.0f);
-  float4 a = (velocity - start) * now->inverse_kick;
+  Scalar4 position = records[2 * (size_t)i], velocity = records[2 * (size_t)i + 1];
+  Scalar4 start = (Scalar4)(solve[field_of(SQUALL_START_VX, stride, i)], solve[field_of(SQUALL_START_VY, stride, i)],
+                            solve[field_of(SQUALL_START_VZ, stride, i)], 0.0f);
+  Scalar4 a = (velocity - start) * now->inverse_kick;
   int event = move(p, boxes, now, &position, &velocity);
   if (event & SQUALL_CLAMPED) atomic_inc(clamps);
   position.w = solve[field_of(SQUALL_IMPULSE, stride, i)] * now->inverse_kick;

@@ -9,8 +9,8 @@
 #include "solve_blocks.h"
 
 static inline void drift_block(__constant Params* p, __constant Box* boxes, __global const Substep* now,
-                               const Block* block, const Lanes* at, __global const float* solve, int stride,
-                               __global float* records, __global int* clamps) {
+                               const Block* block, const Lanes* at, __global const Scalar* solve, int stride,
+                               __global Scalar* records, __global int* clamps) {
   Real inverse_kick = (Real)(now->inverse_kick);
   Vector v = {at->vx, at->vy, at->vz};
   Vector a = {(v.x - load_field(solve, SQUALL_START_VX, stride, block)) * inverse_kick,
@@ -20,8 +20,8 @@ static inline void drift_block(__constant Params* p, __constant Box* boxes, __gl
   move_block(p, boxes, now, block, at, &a, &v, pressure, records, clamps);
 }
 
-__kernel void drift_blocks(__global float* records, __global const float* x, __global const float* y,
-                           __global const float* z, __global const int* cell_start, __global const float* solve,
+__kernel void drift_blocks(__global Scalar* records, __global const Scalar* x, __global const Scalar* y,
+                           __global const Scalar* z, __global const int* cell_start, __global const Scalar* solve,
                            __global int* clamps, __global const SolveState* state, __constant Params* p,
                            __constant Box* boxes, __global const Substep* substeps, int stride, int step, int count) {
   if (state->solve != SQUALL_SOLVED) return;

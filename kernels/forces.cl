@@ -10,19 +10,19 @@
 #include "integrate.h"
 #include "pair_sums.h"
 
-__kernel void forces(__global const float4* sorted, __global float4* records, __global const float* densities,
-                     __global const float* isolations, __global const int* cell_start, __global int* clamps,
+__kernel void forces(__global const Scalar4* sorted, __global Scalar4* records, __global const Scalar* densities,
+                     __global const Scalar* isolations, __global const int* cell_start, __global int* clamps,
                      __constant Params* p, __constant Box* boxes, __global const Substep* substeps, int step,
                      int count) {
   int i = (int)get_global_id(0);
   if (i >= count) return;
-  float4 position = sorted[2 * (size_t)i];
-  float4 velocity = sorted[2 * (size_t)i + 1];
-  float speed2 = 0, acceleration2 = 0;
+  Scalar4 position = sorted[2 * (size_t)i];
+  Scalar4 velocity = sorted[2 * (size_t)i + 1];
+  Scalar speed2 = 0, acceleration2 = 0;
   if (i < cell_start[p->cell_count]) {
     __global const Substep* now = substeps + step;
-    float4 a = fluid_acceleration(sorted, cell_start, p, boxes, now->box_count, position, velocity, densities[i]);
-    a += (float4)(now->acceleration_x, now->acceleration_y, now->acceleration_z, 0.0f);
+    Scalar4 a = fluid_acceleration(sorted, cell_start, p, boxes, now->box_count, position, velocity, densities[i]);
+    a += (Scalar4)(now->acceleration_x, now->acceleration_y, now->acceleration_z, 0.0f);
 #if SQUALL_DRAG
     a = with_drag(p, now, a, velocity, isolations[i]);
 #endif

@@ -9,9 +9,9 @@
 #include "block_sums.h"
 #include "integrate_block.h"
 
-__kernel void forces_blocks(__global const float* sorted, __global float* records, __global const float* densities,
-                            __global const float* isolations, __global const float* x, __global const float* y,
-                            __global const float* z, __global const int* cell_start, __global const int* lists,
+__kernel void forces_blocks(__global const Scalar* sorted, __global Scalar* records, __global const Scalar* densities,
+                            __global const Scalar* isolations, __global const Scalar* x, __global const Scalar* y,
+                            __global const Scalar* z, __global const int* cell_start, __global const int* lists,
                             __global int* clamps, __constant Params* p, __constant Box* boxes,
                             __global const Substep* substeps, int step, int count) {
   __global const Substep* now = substeps + step;
@@ -37,7 +37,7 @@ __kernel void forces_blocks(__global const float* sorted, __global float* record
   }
   if (get_global_id(0) != get_global_size(0) - 1) return;
   for (int i = cell_start[p->cell_count]; i < count; ++i) {
-    float8 record = vload8(i, sorted);
+    Scalar8 record = vload8(i, sorted);
     record.s3 = 0.0f;
     record.s7 = 0.0f;
     vstore8(record, i, records);

@@ -7,7 +7,7 @@
 
 /* Adds the drag of lone drops, by the midpoint rule: at the speed half a kick from now. */
 static inline void add_drag(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* at,
-                            __global const float* isolations, Vector* a) {
+                            __global const Scalar* isolations, Vector* a) {
   Real weight = gather_value(isolations, block);
   Real coefficient = (Real)(p->drag_coefficient);
   Real half_kick = (Real)(now->kick * p->one_half);
@@ -33,9 +33,9 @@ static inline int all_inside(__constant Params* p, const Vector* x) {
 
 /* Puts lane `lane` through keep_inside. */
 static inline int keep_lane_inside(__constant Params* p, __constant Box* boxes, int box_count, int lane,
-                                   const float (*from_lanes)[SQUALL_LANES], float (*to_lanes)[SQUALL_LANES],
-                                   float (*speed_lanes)[SQUALL_LANES]) {
-  float from[3], to[3], speed[3];
+                                   const Scalar (*from_lanes)[SQUALL_LANES], Scalar (*to_lanes)[SQUALL_LANES],
+                                   Scalar (*speed_lanes)[SQUALL_LANES]) {
+  Scalar from[3], to[3], speed[3];
   for (int axis = 0; axis < 3; ++axis) {
     from[axis] = from_lanes[axis][lane];
     to[axis] = to_lanes[axis][lane];
@@ -50,24 +50,24 @@ static inline int keep_lane_inside(__constant Params* p, __constant Box* boxes, 
 }
 
 /* What stays in the spare fields of a record: see motion.h. */
-static inline float8 moved_record(const float* to, const float* v, int lost, float pressure, float acceleration2) {
+static inline Scalar8 moved_record(const Scalar* to, const Scalar* v, int lost, Scalar pressure, Scalar acceleration2) {
 #if SQUALL_DFSPH
-  return (float8)(to[0], to[1], to[2], pressure, v[0], v[1], v[2], lost ? -1.0f : acceleration2);
+  return (Scalar8)(to[0], to[1], to[2], pressure, v[0], v[1], v[2], lost ? -1.0f : acceleration2);
 #else
-  float speed2 = fma(v[2], v[2], fma(v[1], v[1], v[0] * v[0]));
-  return (float8)(to[0], to[1], to[2], lost ? 0.0f : speed2, v[0], v[1], v[2], lost ? 0.0f : acceleration2);
+  Scalar speed2 = fma(v[2], v[2], fma(v[1], v[1], v[0] * v[0]));
+  return (Scalar8)(to[0], to[1], to[2], lost ? 0.0f : speed2, v[0], v[1], v[2], lost ? 0.0f : acceleration2);
 #endif
 }
 
 /* Moves a block that is at `at` on with velocity v, and writes its records. The pressure is dfsph's. */
 static inline void move_block(__constant Params* p, __constant Box* boxes, __global const Substep* now,
                               const Block* block, const Lanes* at, const Vector* a, const Vector* velocity,
-                              Real pressure, __global float* records, __global int* clamps) {
+                              Real pressure, __global Scalar* records, __global int* clamps) {
   Real dt = (Real)(now->dt);
   Vector v = *velocity;
   Vector x = {fma(dt, v.x, at->x), fma(dt, v.y, at->y), fma(dt, v.z, at->z)};
-  float from_lanes[3][SQUALL_LANES], to_lanes[3][SQUALL_LANES], speed_lanes[3][SQUALL_LANES];
-  float acceleration2[SQUALL_LANES], pressures[SQUALL_LANES];
+  Scalar from_lanes[3][SQUALL_LANES], to_lanes[3][SQUALL_LANES], speed_lanes[3][SQUALL_LANES];
+  Scalar acceleration2[SQUALL_LANES], pressures[SQUALL_LANES];
   store_lanes(x.x, to_lanes[0]);
   store_lanes(x.y, to_lanes[1]);
   store_lanes(x.z, to_lanes[2]);
@@ -89,7 +89,7 @@ static inline void move_block(__constant Params* p, __constant Box* boxes, __glo
     store_lanes(at->z, from_lanes[2]);
     for (int lane = 0; lane < block->end - block->begin; ++lane) {
       int event =
-          keep_lane_inside(p, boxes, box_count, lane, (const float(*)[SQUALL_LANES])from_lanes, to_lanes, speed_lanes);
+          keep_lane_inside(p, boxes, box_count, lane, (const Scalar(*)[SQUALL_LANES])from_lanes, to_lanes, speed_lanes);
       lost[lane] = event & SQUALL_LOST;
       clamped += (event & SQUALL_CLAMPED) != 0;
     }
@@ -97,15 +97,15 @@ static inline void move_block(__constant Params* p, __constant Box* boxes, __glo
   }
   for (int i = block->begin; i < block->end; ++i) {
     int lane = i - block->begin;
-    float to[3] = {to_lanes[0][lane], to_lanes[1][lane], to_lanes[2][lane]};
-    float speed[3] = {speed_lanes[0][lane], speed_lanes[1][lane], speed_lanes[2][lane]};
+    Scalar to[3] = {to_lanes[0][lane], to_lanes[1][lane], to_lanes[2][lane]};
+    Scalar speed[3] = {speed_lanes[0][lane], speed_lanes[1][lane], speed_lanes[2][lane]};
     vstore8(moved_record(to, speed, lost[lane], pressures[lane], acceleration2[lane]), i, records);
   }
 }
 
 static inline void integrate_block(__constant Params* p, __constant Box* boxes, __global const Substep* now,
-                                   const Block* block, const Lanes* at, Vector* a, __global const float* isolations,
-                                   __global float* records, __global int* clamps) {
+                                   const Block* block, const Lanes* at, Vector* a, __global const Scalar* isolations,
+                                   __global Scalar* records, __global int* clamps) {
   a->x += (Real)(now->acceleration_x);
   a->y += (Real)(now->acceleration_y);
   a->z += (Real)(now->acceleration_z);

@@ -8,8 +8,8 @@
 
 namespace squall {
 
-/// Entries of list memory per particle. A block of 8 has about 75 neighbours at rest density.
-inline constexpr int k_list_entries = 16;
+/// Entries of list memory per particle. A block of 8 has about 75 neighbours at rest density, one of 4 about 60.
+inline constexpr int list_entries(int lanes) { return lanes == 4 ? 32 : 16; }
 
 }  // namespace squall
 
@@ -17,7 +17,7 @@ inline constexpr int k_list_entries = 16;
 
 #include "blocks.h"
 
-#define SQUALL_LIST_ENTRIES 16
+#define SQUALL_LIST_ENTRIES (SQUALL_LANES == 4 ? 32 : 16)
 #define SQUALL_NO_LIST (-1)
 
 typedef struct {

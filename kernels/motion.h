@@ -4,15 +4,16 @@
 #ifndef SQUALL_MOTION_H
 #define SQUALL_MOTION_H
 
+#include "shared.h"
 #include "switches.h"
 
-static inline float2 motion_of(float4 position, float4 velocity) {
+static inline Scalar2 motion_of(Scalar4 position, Scalar4 velocity) {
 #if SQUALL_DFSPH
-  if (velocity.w < 0.0f) return (float2)(0.0f, 0.0f);
+  if (velocity.w < 0.0f) return (Scalar2)(0.0f, 0.0f);
   /* squared_length, which may be one of vectors here */
-  return (float2)(fma(velocity.z, velocity.z, fma(velocity.y, velocity.y, velocity.x * velocity.x)), velocity.w);
+  return (Scalar2)(fma(velocity.z, velocity.z, fma(velocity.y, velocity.y, velocity.x * velocity.x)), velocity.w);
 #else
-  return (float2)(position.w, velocity.w);
+  return (Scalar2)(position.w, velocity.w);
 #endif
 }
 

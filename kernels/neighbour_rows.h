@@ -9,7 +9,7 @@ typedef struct {
   int first_x, last_x, first_y, last_y, first_z, last_z; /* cells, both ends included */
 } Neighbourhood;
 
-static inline Neighbourhood neighbourhood(__constant Params* p, float x, float y, float z) {
+static inline Neighbourhood neighbourhood(__constant Params* p, Scalar x, Scalar y, Scalar z) {
   int cx = cell_coordinate(x, p->inverse_edge_x, p->cells_x);
   int cy = cell_coordinate(y, p->inverse_edge_yz, p->cells_y);
   int cz = cell_coordinate(z, p->inverse_edge_yz, p->cells_z);

@@ -11,33 +11,33 @@
 #include "solve_pairs.h"
 
 typedef struct {
-  float4 pushed, smoothed;
+  Scalar4 pushed, smoothed;
 } Prediction;
 
-static inline void add_pair(__constant Params* p, float viscous, float4 place, float4 motion, float4 other_place,
-                            float4 other_motion, Prediction* sums) {
-  float4 way = place - other_place; /* w means nothing, here and in the sums */
-  float r2 = squared_length(way.x, way.y, way.z);
+static inline void add_pair(__constant Params* p, Scalar viscous, Scalar4 place, Scalar4 motion, Scalar4 other_place,
+                            Scalar4 other_motion, Prediction* sums) {
+  Scalar4 way = place - other_place; /* w means nothing, here and in the sums */
+  Scalar r2 = squared_length(way.x, way.y, way.z);
   if (!(r2 < p->list_squared)) return; /* it would add exactly zero */
-  float impulses = motion.w + other_motion.w;
+  Scalar impulses = motion.w + other_motion.w;
 #if SQUALL_VISCOSITY
-  float4 speed = motion - other_motion;
-  float receding = dot_product(way.x, way.y, way.z, speed.x, speed.y, speed.z);
+  Scalar4 speed = motion - other_motion;
+  Scalar receding = dot_product(way.x, way.y, way.z, speed.x, speed.y, speed.z);
   impulses = viscous_pair_push(impulses, viscous, receding, r2, p->softening);
 #endif
-  sums->pushed = fma((float4)(impulses * weight_of(p, r2)), way, sums->pushed);
+  sums->pushed = fma((Scalar4)(impulses * weight_of(p, r2)), way, sums->pushed);
 #if SQUALL_SMOOTHING
-  float r = sqrt(r2);
-  float value = cubic_value(remaining_support(r, p->inverse_support), remaining_support(r, p->inverse_half_support));
-  sums->smoothed = fma((float4)(value), other_motion - motion, sums->smoothed);
+  Scalar r = sqrt(r2);
+  Scalar value = cubic_value(remaining_support(r, p->inverse_support), remaining_support(r, p->inverse_half_support));
+  sums->smoothed = fma((Scalar4)(value), other_motion - motion, sums->smoothed);
 #endif
 }
 
-static inline void predict_from_neighbours(__constant Params* p, __global const float4* places,
-                                           __global const float4* records, __global const int* cell_start, float kick,
-                                           float4 place, float4 motion, Prediction* sums) {
-  sums->pushed = sums->smoothed = (float4)(0.0f);
-  float viscous = p->viscosity_scale * kick;
+static inline void predict_from_neighbours(__constant Params* p, __global const Scalar4* places,
+                                           __global const Scalar4* records, __global const int* cell_start, Scalar kick,
+                                           Scalar4 place, Scalar4 motion, Prediction* sums) {
+  sums->pushed = sums->smoothed = (Scalar4)(0.0f);
+  Scalar viscous = p->viscosity_scale * kick;
   Neighbourhood cells = neighbourhood(p, place.x, place.y, place.z);
   for (int z = cells.first_z; z <= cells.last_z; ++z) {
     for (int y = cells.first_y; y <= cells.last_y; ++y) {
@@ -48,26 +48,26 @@ static inline void predict_from_neighbours(__constant Params* p, __global const 
   }
 }
 
-__kernel void predict(__global const float4* places, __global const float4* sorted, __global float4* records,
-                      __global const float* densities, __global const float* isolations, __global const int* cell_start,
-                      __global float* solve, __global const SolveState* state, __constant Params* p,
-                      __global const Substep* substeps, int stride, int step, int count) {
+__kernel void predict(__global const Scalar4* places, __global const Scalar4* sorted, __global Scalar4* records,
+                      __global const Scalar* densities, __global const Scalar* isolations,
+                      __global const int* cell_start, __global Scalar* solve, __global const SolveState* state,
+                      __constant Params* p, __global const Substep* substeps, int stride, int step, int count) {
   int i = (int)get_global_id(0);
   if (state->solve != SQUALL_DENSITY_SOLVE || i >= count) return;
-  float4 place = sorted[2 * (size_t)i], motion = sorted[2 * (size_t)i + 1];
+  Scalar4 place = sorted[2 * (size_t)i], motion = sorted[2 * (size_t)i + 1];
   if (i < cell_start[p->cell_count]) {
     __global const Substep* now = substeps + step;
-    float impulse = motion.w;
+    Scalar impulse = motion.w;
     Prediction sums;
     predict_from_neighbours(p, places, sorted, cell_start, now->kick, place, motion, &sums);
-    float4 a = (float4)(0.0f) + (float4)(now->acceleration_x, now->acceleration_y, now->acceleration_z, 0.0f);
+    Scalar4 a = (Scalar4)(0.0f) + (Scalar4)(now->acceleration_x, now->acceleration_y, now->acceleration_z, 0.0f);
 #if SQUALL_DRAG
     a = with_drag(p, now, a, motion, isolations[i]);
 #endif
-    motion = fma((float4)(now->kick), a, motion) +
-             fma((float4)(p->force_scale), sums.pushed, impulse * opening_slope_of(solve, stride, i));
+    motion = fma((Scalar4)(now->kick), a, motion) +
+             fma((Scalar4)(p->force_scale), sums.pushed, impulse * opening_slope_of(solve, stride, i));
 #if SQUALL_SMOOTHING
-    motion = fma((float4)(p->smoothing_scale * now->dt), sums.smoothed, motion);
+    motion = fma((Scalar4)(p->smoothing_scale * now->dt), sums.smoothed, motion);
 #endif
     place.w = motion.w = 0.0f;
     solve[field_of(SQUALL_IMPULSE, stride, i)] = impulse;

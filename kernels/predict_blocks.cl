@@ -13,7 +13,7 @@ typedef struct {
   Vector pushed, smoothed;
 } Prediction;
 
-static inline void predict_pair(__constant Params* p, Real viscous, const Lanes* a, __global const float* b,
+static inline void predict_pair(__constant Params* p, Real viscous, const Lanes* a, __global const Scalar* b,
                                 Prediction* sums) {
   Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
   Real r2 = squared_length(x, y, z);
@@ -31,7 +31,7 @@ static inline void predict_pair(__constant Params* p, Real viscous, const Lanes*
 #endif
 }
 
-static inline void predict_from_neighbours(__constant Params* p, float kick, __global const float* sorted,
+static inline void predict_from_neighbours(__constant Params* p, Scalar kick, __global const Scalar* sorted,
                                            const Places* places, __global const int* cell_start, const Block* block,
                                            const Lanes* a, __global const int* list, Prediction* sums) {
   sums->pushed.x = sums->pushed.y = sums->pushed.z = (Real)(0);
@@ -55,9 +55,9 @@ static inline Real predicted(__constant Params* p, __global const Substep* now, 
 }
 
 static inline void predict_block(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* at,
-                                 const Prediction* sums, float correction, __global const float* densities,
-                                 __global const float* isolations, int stride, __global float* solve,
-                                 __global float* records) {
+                                 const Prediction* sums, Scalar correction, __global const Scalar* densities,
+                                 __global const Scalar* isolations, int stride, __global Scalar* solve,
+                                 __global Scalar* records) {
   Vector a = {(Real)(0) + (Real)(now->acceleration_x), (Real)(0) + (Real)(now->acceleration_y),
               (Real)(0) + (Real)(now->acceleration_z)};
 #if SQUALL_DRAG
@@ -79,10 +79,10 @@ static inline void predict_block(__constant Params* p, __global const Substep* n
   store_field(density_room(gather_value(densities, block), (Real)(correction)), SQUALL_ROOM, stride, block, solve);
 }
 
-__kernel void predict_blocks(__global const float* sorted, __global float* records, __global const float* densities,
-                             __global const float* isolations, __global const float* x, __global const float* y,
-                             __global const float* z, __global const int* cell_start, __global const int* lists,
-                             __global float* solve, __global const SolveState* state, __constant Params* p,
+__kernel void predict_blocks(__global const Scalar* sorted, __global Scalar* records, __global const Scalar* densities,
+                             __global const Scalar* isolations, __global const Scalar* x, __global const Scalar* y,
+                             __global const Scalar* z, __global const int* cell_start, __global const int* lists,
+                             __global Scalar* solve, __global const SolveState* state, __constant Params* p,
                              __global const Substep* substeps, int stride, int step, int count) {
   if (state->solve != SQUALL_DENSITY_SOLVE) return;
   __global const Substep* now = substeps + step;

@@ -11,32 +11,32 @@
 #include "wall_openings.h"
 
 typedef struct {
-  float even, odd; /* kernel sums by the parity of the sorted index */
-  float squares;   /* of slopes */
-  float4 gradient;
+  Scalar even, odd; /* kernel sums by the parity of the sorted index */
+  Scalar squares;   /* of slopes */
+  Scalar4 gradient;
   int neighbours; /* self included */
 } PreparedSums;
 
-static inline void add_candidate(__constant Params* p, float4 from, float4 to, int j, PreparedSums* sums) {
-  float4 way = from - to; /* w means nothing, here and in the sum */
-  float r2 = squared_length(way.x, way.y, way.z);
+static inline void add_candidate(__constant Params* p, Scalar4 from, Scalar4 to, int j, PreparedSums* sums) {
+  Scalar4 way = from - to; /* w means nothing, here and in the sum */
+  Scalar r2 = squared_length(way.x, way.y, way.z);
   if (!(r2 < p->list_squared)) return; /* it would add exactly zero */
-  float r = sqrt(r2);
-  float u = remaining_support(r, p->inverse_support), w = remaining_support(r, p->inverse_half_support);
-  float slope = cubic_slope(u, w), value = cubic_value(u, w);
+  Scalar r = sqrt(r2);
+  Scalar u = remaining_support(r, p->inverse_support), w = remaining_support(r, p->inverse_half_support);
+  Scalar slope = cubic_slope(u, w), value = cubic_value(u, w);
   if (j & 1)
     sums->odd += value;
   else
     sums->even += value;
   sums->neighbours += u > 0.0f;
-  sums->gradient = fma((float4)(pair_weight(slope, r, p->tiny)), way, sums->gradient);
+  sums->gradient = fma((Scalar4)(pair_weight(slope, r, p->tiny)), way, sums->gradient);
   sums->squares = fma(slope, slope, sums->squares);
 }
 
-static inline void sum_candidates(__constant Params* p, __global const float4* places, __global const int* cell_start,
-                                  float4 at, PreparedSums* sums) {
+static inline void sum_candidates(__constant Params* p, __global const Scalar4* places, __global const int* cell_start,
+                                  Scalar4 at, PreparedSums* sums) {
   sums->even = sums->odd = sums->squares = 0.0f;
-  sums->gradient = (float4)(0.0f);
+  sums->gradient = (Scalar4)(0.0f);
   sums->neighbours = 0;
   Neighbourhood cells = neighbourhood(p, at.x, at.y, at.z);
   for (int z = cells.first_z; z <= cells.last_z; ++z) {
@@ -47,22 +47,23 @@ static inline void sum_candidates(__constant Params* p, __global const float4* p
   }
 }
 
-__kernel void prepare(__global const float4* places, __global float* records, __global float* densities,
-                      __global float* isolations, __global int* neighbours, __global const int* cell_start,
-                      __global float* solve, __global float* errors, __constant Params* p, __constant Box* boxes,
+__kernel void prepare(__global const Scalar4* places, __global Scalar* records, __global Scalar* densities,
+                      __global Scalar* isolations, __global int* neighbours, __global const int* cell_start,
+                      __global Scalar* solve, __global Scalar* errors, __constant Params* p, __constant Box* boxes,
                       __global const Substep* substeps, int stride, int step) {
   int i = (int)get_global_id(0);
   if (i >= cell_start[p->cell_count]) return;
   __global const Substep* now = substeps + step;
-  float4 at = places[i];
+  Scalar4 at = places[i];
   PreparedSums sums;
   sum_candidates(p, places, cell_start, at, &sums);
-  float kernel_sum = sums.even + sums.odd;
-  float ex, ey, ez;
-  float share = 1 - opening_with_cores(p, boxes, now->box_count, at.x, at.y, at.z, &ex, &ey, &ez);
-  float density = relative_density(kernel_sum, p->density_scale, share);
-  float response = pressure_response(fma(p->force_scale, sums.gradient.x, ex), fma(p->force_scale, sums.gradient.y, ey),
-                                     fma(p->force_scale, sums.gradient.z, ez), sums.squares, p->force_scale);
+  Scalar kernel_sum = sums.even + sums.odd;
+  Scalar ex, ey, ez;
+  Scalar share = 1 - opening_with_cores(p, boxes, now->box_count, at.x, at.y, at.z, &ex, &ey, &ez);
+  Scalar density = relative_density(kernel_sum, p->density_scale, share);
+  Scalar response =
+      pressure_response(fma(p->force_scale, sums.gradient.x, ex), fma(p->force_scale, sums.gradient.y, ey),
+                        fma(p->force_scale, sums.gradient.z, ez), sums.squares, p->force_scale);
   densities[i] = density;
   errors[i] = density - 1;
 #if SQUALL_DRAG
@@ -77,7 +78,7 @@ __kernel void prepare(__global const float4* places, __global float* records, __
   solve[field_of(SQUALL_ROOM, stride, i)] = divergence_room(density, p->free_density);
   solve[field_of(SQUALL_IMPULSE, stride, i)] = 0.0f;
   solve[field_of(SQUALL_PROJECTED, stride, i)] = 0.0f;
-  __global float* record = records + 8 * (size_t)i;
+  __global Scalar* record = records + 8 * (size_t)i;
   for (int axis = 0; axis < 3; ++axis) solve[field_of(SQUALL_START_VX + axis, stride, i)] = record[4 + axis];
   record[7] = warm_impulse(record[3], now->warm_kick, p->largest_warm_impulse / now->dt);
 }

@@ -74,7 +74,7 @@ static inline Real opening_of(__constant Params* p, __constant Box* boxes, int b
 /* Where the block's solves begin: the divergence solve from no impulse, the density solve from that of the last
    pressure. */
 static inline void begin_block(__constant Params* p, __global const Substep* now, const Block* block, Real density,
-                               int stride, __global float* records, __global float* solve) {
+                               int stride, __global Scalar* records, __global Scalar* solve) {
   store_field(divergence_room(density, (Real)(p->free_density)), SQUALL_ROOM, stride, block, solve);
   store_field((Real)(0), SQUALL_IMPULSE, stride, block, solve);
   store_field((Real)(0), SQUALL_PROJECTED, stride, block, solve);
@@ -85,9 +85,9 @@ static inline void begin_block(__constant Params* p, __global const Substep* now
 }
 
 /* Returns what the block adds to the sum of over-density. */
-static inline long prepare_block(__global float* records, __global float* densities, __global float* isolations,
+static inline long prepare_block(__global Scalar* records, __global Scalar* densities, __global Scalar* isolations,
                                  __global int* neighbours, const Places* places, __global const int* cell_start,
-                                 __global float* solve, __constant Params* p, __constant Box* boxes,
+                                 __global Scalar* solve, __constant Params* p, __constant Box* boxes,
                                  __global const Substep* now, int stride, const Block* block, NeighbourLists* lists) {
   Real x = load_own(places->x, block), y = load_own(places->y, block), z = load_own(places->z, block);
   PreparedSums sums;
@@ -110,7 +110,7 @@ static inline long prepare_block(__global float* records, __global float* densit
                block, isolations);
 #endif
   if (now->statistics) {
-    int counts[SQUALL_LANES];
+    MaskLane counts[SQUALL_LANES];
     store_lanes(sums.neighbours, counts);
     for (int i = block->begin; i < block->end; ++i) neighbours[i] = -counts[i - block->begin] - 1;
   }
@@ -118,10 +118,10 @@ static inline long prepare_block(__global float* records, __global float* densit
   return sum_of_terms(density - (Real)(1), block);
 }
 
-__kernel void prepare_blocks(__global float* records, __global float* densities, __global float* isolations,
-                             __global int* neighbours, __global const float* x, __global const float* y,
-                             __global const float* z, __global const int* cell_start, __global int* list_memory,
-                             __global float* solve, __global long* shares, __constant Params* p, __constant Box* boxes,
+__kernel void prepare_blocks(__global Scalar* records, __global Scalar* densities, __global Scalar* isolations,
+                             __global int* neighbours, __global const Scalar* x, __global const Scalar* y,
+                             __global const Scalar* z, __global const int* cell_start, __global int* list_memory,
+                             __global Scalar* solve, __global long* shares, __constant Params* p, __constant Box* boxes,
                              __global const Substep* substeps, int stride, int step) {
   Places places = {x, y, z};
   Share share;

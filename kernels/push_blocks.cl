@@ -8,8 +8,8 @@
 #include "solve_blocks.h"
 
 /* Velocities of the block after every particle's change of impulse. */
-static inline void push_block(__constant Params* p, __global float* records, const Places* places,
-                              __global const int* cell_start, __global float* solve, int stride, const Block* block,
+static inline void push_block(__constant Params* p, __global Scalar* records, const Places* places,
+                              __global const int* cell_start, __global Scalar* solve, int stride, const Block* block,
                               const Lanes* a, __global const int* list) {
   Vector sum = {(Real)(0), (Real)(0), (Real)(0)};
   Real change = a->pressure_term;
@@ -18,7 +18,7 @@ static inline void push_block(__constant Params* p, __global float* records, con
   int found[SQUALL_BATCH + 1], count;
   while ((count = next_neighbours(p, places, &neighbours, found)) > 0) {
     for (int k = 0; k < count; ++k) {
-      __global const float* b = records + 8 * (size_t)found[k];
+      __global const Scalar* b = records + 8 * (size_t)found[k];
       Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
       add_scaled(&sum, (change + (Real)(b[3])) * weight_of(p, squared_length(x, y, z)), x, y, z);
     }
@@ -32,9 +32,9 @@ static inline void push_block(__constant Params* p, __global float* records, con
   store_field(max0(load_field(solve, SQUALL_IMPULSE, stride, block) + change), SQUALL_IMPULSE, stride, block, solve);
 }
 
-__kernel void push_blocks(__global float* records, __global const float* x, __global const float* y,
-                          __global const float* z, __global const int* cell_start, __global const int* lists,
-                          __global float* solve, __global const SolveState* state, __constant Params* p, int stride,
+__kernel void push_blocks(__global Scalar* records, __global const Scalar* x, __global const Scalar* y,
+                          __global const Scalar* z, __global const int* cell_start, __global const int* lists,
+                          __global Scalar* solve, __global const SolveState* state, __constant Params* p, int stride,
                           int this_solve) {
   if (state->solve != this_solve) return;
   Places places = {x, y, z};

@@ -8,18 +8,18 @@
 
 #include "solve_pairs.h"
 
-static inline float receding_sum(__constant Params* p, __global const float4* places, __global const float4* records,
-                                 __global const int* cell_start, float4 place, float4 motion) {
-  float sum = 0.0f;
+static inline Scalar receding_sum(__constant Params* p, __global const Scalar4* places, __global const Scalar4* records,
+                                  __global const int* cell_start, Scalar4 place, Scalar4 motion) {
+  Scalar sum = 0.0f;
   Neighbourhood cells = neighbourhood(p, place.x, place.y, place.z);
   for (int z = cells.first_z; z <= cells.last_z; ++z) {
     for (int y = cells.first_y; y <= cells.last_y; ++y) {
       int2 range = candidates(p, cell_start, cells, y, z);
       for (int j = range.x; j < range.y; ++j) {
-        float4 way = place - places[j];
-        float r2 = squared_length(way.x, way.y, way.z);
+        Scalar4 way = place - places[j];
+        Scalar r2 = squared_length(way.x, way.y, way.z);
         if (!(r2 < p->list_squared)) continue; /* it would add exactly zero */
-        float4 speed = motion - records[2 * (size_t)j + 1];
+        Scalar4 speed = motion - records[2 * (size_t)j + 1];
         sum = fma(weight_of(p, r2), dot_product(way.x, way.y, way.z, speed.x, speed.y, speed.z), sum);
       }
     }
@@ -27,24 +27,24 @@ static inline float receding_sum(__constant Params* p, __global const float4* pl
   return sum;
 }
 
-__kernel void rate(__global const float4* places, __global float4* records, __global const int* cell_start,
-                   __global float* solve, __global float* errors, __global const SolveState* state,
+__kernel void rate(__global const Scalar4* places, __global Scalar4* records, __global const int* cell_start,
+                   __global Scalar* solve, __global Scalar* errors, __global const SolveState* state,
                    __constant Params* p, __global const Substep* substeps, int stride, int step, int this_solve) {
   int i = (int)get_global_id(0);
   if (state->solve != this_solve || i >= cell_start[p->cell_count]) return;
   __global const Substep* now = substeps + step;
-  float4 motion = records[2 * (size_t)i + 1];
-  float sum = receding_sum(p, places, records, cell_start, places[i], motion);
-  float4 e = opening_slope_of(solve, stride, i);
-  float along = dot_product(motion.x, motion.y, motion.z, e.x, e.y, e.z);
-  float impulse = solve[field_of(SQUALL_IMPULSE, stride, i)];
-  float inverse = solve[field_of(SQUALL_INVERSE_RESPONSE, stride, i)];
-  float before = solve[field_of(SQUALL_PROJECTED, stride, i)];
-  float lack = lack_of_compression(solve[field_of(SQUALL_ROOM, stride, i)], now->dt,
-                                   compression_rate(sum, p->force_scale, along));
-  float projected = projected_impulse(impulse, lack, now->relaxation_rate, inverse);
+  Scalar4 motion = records[2 * (size_t)i + 1];
+  Scalar sum = receding_sum(p, places, records, cell_start, places[i], motion);
+  Scalar4 e = opening_slope_of(solve, stride, i);
+  Scalar along = dot_product(motion.x, motion.y, motion.z, e.x, e.y, e.z);
+  Scalar impulse = solve[field_of(SQUALL_IMPULSE, stride, i)];
+  Scalar inverse = solve[field_of(SQUALL_INVERSE_RESPONSE, stride, i)];
+  Scalar before = solve[field_of(SQUALL_PROJECTED, stride, i)];
+  Scalar lack = lack_of_compression(solve[field_of(SQUALL_ROOM, stride, i)], now->dt,
+                                    compression_rate(sum, p->force_scale, along));
+  Scalar projected = projected_impulse(impulse, lack, now->relaxation_rate, inverse);
   solve[field_of(SQUALL_PROJECTED, stride, i)] = projected;
-  ((__global float*)records)[8 * (size_t)i + 3] = extrapolated_impulse(projected, before, state->momentum) - impulse;
+  ((__global Scalar*)records)[8 * (size_t)i + 3] = extrapolated_impulse(projected, before, state->momentum) - impulse;
   errors[i] = solve_error(lack, impulse, now->dt, solve[field_of(SQUALL_RESPONSE, stride, i)], inverse);
 }
 

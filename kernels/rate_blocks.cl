@@ -8,7 +8,7 @@
 
 #include "solve_blocks.h"
 
-static inline Real receding_sum(__constant Params* p, __global const float* records, const Places* places,
+static inline Real receding_sum(__constant Params* p, __global const Scalar* records, const Places* places,
                                 __global const int* cell_start, const Block* block, const Lanes* a,
                                 __global const int* list) {
   Real sum = (Real)(0);
@@ -17,7 +17,7 @@ static inline Real receding_sum(__constant Params* p, __global const float* reco
   int found[SQUALL_BATCH + 1], count;
   while ((count = next_neighbours(p, places, &neighbours, found)) > 0) {
     for (int k = 0; k < count; ++k) {
-      __global const float* b = records + 8 * (size_t)found[k];
+      __global const Scalar* b = records + 8 * (size_t)found[k];
       Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
       Real receding = dot_product(x, y, z, a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
       sum = fma(weight_of(p, squared_length(x, y, z)), receding, sum);
@@ -28,7 +28,8 @@ static inline Real receding_sum(__constant Params* p, __global const float* reco
 
 /* The block's part of an iteration, `sum` being its receding_sum. Returns the sum of its errors. */
 static inline long iterate_block(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* a,
-                                 Real sum, float momentum, int stride, __global float* records, __global float* solve) {
+                                 Real sum, Scalar momentum, int stride, __global Scalar* records,
+                                 __global Scalar* solve) {
   Real along = dot_product(a->vx, a->vy, a->vz, load_field(solve, SQUALL_OPENING_X, stride, block),
                            load_field(solve, SQUALL_OPENING_Y, stride, block),
                            load_field(solve, SQUALL_OPENING_Z, stride, block));
@@ -44,9 +45,9 @@ static inline long iterate_block(__constant Params* p, __global const Substep* n
   return sum_of_terms(solve_error(lack, impulse, dt, response, inverse), block);
 }
 
-__kernel void rate_blocks(__global float* records, __global const float* x, __global const float* y,
-                          __global const float* z, __global const int* cell_start, __global const int* lists,
-                          __global float* solve, __global long* shares, __global const SolveState* state,
+__kernel void rate_blocks(__global Scalar* records, __global const Scalar* x, __global const Scalar* y,
+                          __global const Scalar* z, __global const int* cell_start, __global const int* lists,
+                          __global Scalar* solve, __global long* shares, __global const SolveState* state,
                           __constant Params* p, __global const Substep* substeps, int stride, int step,
                           int this_solve) {
   if (state->solve != this_solve) return;

@@ -12,11 +12,11 @@
 
 /* Sorted positions, an array per axis. */
 typedef struct {
-  __global const float *x, *y, *z;
+  __global const Scalar *x, *y, *z;
 } Places;
 
 typedef struct {
-  float low_x, low_y, low_z, high_x, high_y, high_z;
+  Scalar low_x, low_y, low_z, high_x, high_y, high_z;
 } Bounds;
 
 /* The block's candidates: up to nine ranges of sorted indices, in ascending order, and where the search stands. */
@@ -27,15 +27,17 @@ typedef struct {
   int range, next;          /* the range and the candidate that come next */
 } Search;
 
-static inline float smallest_lane(Real v) {
+static inline Scalar smallest_lane(Real v) {
 #if SQUALL_LANES == 16
-  float8 halves = min(v.lo, v.hi);
+  Scalar8 eight = min(v.lo, v.hi);
+  Scalar4 four = min(eight.lo, eight.hi);
+#elif SQUALL_LANES == 8
+  Scalar4 four = min(v.lo, v.hi);
 #else
-  float8 halves = v;
+  Scalar4 four = v;
 #endif
-  float4 quarters = min(halves.lo, halves.hi);
-  float2 eighths = min(quarters.lo, quarters.hi);
-  return min(eighths.x, eighths.y);
+  Scalar2 two = min(four.lo, four.hi);
+  return min(two.x, two.y);
 }
 
 static inline void set_bounds(Real x, Real y, Real z, Bounds* bounds) {
@@ -89,7 +91,7 @@ static inline int search_batch(__constant Params* p, const Places* places, Searc
   while (range < search->count && count <= SQUALL_BATCH - SQUALL_LANES) {
     int end = search->ends[range];
     Mask hit = near_bounds(p, places, &search->bounds, j) & (k_lane_numbers < (Mask)(end - j));
-    int hits[SQUALL_LANES];
+    MaskLane hits[SQUALL_LANES];
     store_lanes(hit, hits);
 #pragma unroll
     for (int lane = 0; lane < SQUALL_LANES; ++lane) {

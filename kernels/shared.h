@@ -1,8 +1,8 @@
 /* What lets one text be C++ and OpenCL C 1.2.
 
    In C++ a formula is a template over Real: float, double, or a SIMD pack (a value per lane). In OpenCL C it is a plain
-   function over `Real`, which the kernel file may define as a vector type before including this header; the default is
-   float. `Scalar` is the element type: what the parameter structs hold.
+   function over `Real`, a vector of SQUALL_LANES or a single one of `Scalar`, the element type: what the parameter
+   structs hold, float or double.
 
    Rules for everything below kernels/: no branch on data in a formula, only + - * / sqrt, fma and max0; fused
    multiply-adds are written as fma() and the compiler may not invent others; constants are small integers, so that
@@ -75,10 +75,35 @@ inline double fms(double a, double b, double c) { return fma(a, b, -c); }
 
 #define nfma(a, b, c) fma(-(a), (b), (c))
 #define fms(a, b, c) fma((a), (b), -(c))
-#define Scalar float
-#ifndef SQUALL_LANES
+#ifndef SQUALL_DOUBLE /* 1: double precision */
+#define SQUALL_DOUBLE 0
+#endif
+#ifndef SQUALL_LANES /* particles per vector: 1, 8 or 16; in double precision 1, 4 or 8 */
 #define SQUALL_LANES 1
 #endif
+#if SQUALL_DOUBLE
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double Scalar;
+typedef double2 Scalar2;
+typedef double4 Scalar4;
+typedef double8 Scalar8;
+#define convert_scalar_rte convert_double_rte
+#if SQUALL_LANES == 8
+typedef double8 Real;
+#define max0(x) as_double8(max(as_long8(x), (long8)(0)))
+#elif SQUALL_LANES == 4
+typedef double4 Real;
+#define max0(x) as_double4(max(as_long4(x), (long4)(0)))
+#else
+typedef double Real;
+#define max0(x) as_double(max(as_long(x), 0L))
+#endif
+#else
+typedef float Scalar;
+typedef float2 Scalar2;
+typedef float4 Scalar4;
+typedef float8 Scalar8;
+#define convert_scalar_rte convert_float_rte
 #if SQUALL_LANES == 16
 typedef float16 Real;
 #define max0(x) as_float16(max(as_int16(x), (int16)(0)))
@@ -88,6 +113,7 @@ typedef float8 Real;
 #else
 typedef float Real;
 #define max0(x) as_float(max(as_int(x), 0))
+#endif
 #endif
 #define SQUALL_NAMESPACE_BEGIN
 #define SQUALL_NAMESPACE_END

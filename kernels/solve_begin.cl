@@ -12,7 +12,7 @@ __kernel void solve_begin(__global SolveState* state, __global const long* share
                           int step) {
   long excess = sum_of_shares(shares, count);
   long allowed = convergence_term(substeps[step].correction) * cell_start[p->cell_count];
-  state->correction = excess <= allowed ? 1.0f : convert_float_rte(allowed) / convert_float_rte(excess);
+  state->correction = excess <= allowed ? 1.0f : convert_scalar_rte(allowed) / convert_scalar_rte(excess);
   state->iterations[0] = state->iterations[1] = 0;
   state->unconverged = 0;
   state->reserved = 0;

@@ -33,37 +33,37 @@ static inline int next_neighbours(__constant Params* p, const Places* places, Ne
 }
 
 /* The block's values of a field of the solves. */
-static inline Real load_field(__global const float* solve, int field, int stride, const Block* block) {
-  __global const float* values = solve + (size_t)field * (size_t)stride;
+static inline Real load_field(__global const Scalar* solve, int field, int stride, const Block* block) {
+  __global const Scalar* values = solve + (size_t)field * (size_t)stride;
   if (block->end - block->begin == SQUALL_LANES) return load_lanes(values + block->begin);
   return gather_value(values, block);
 }
 
 /* Writes the block's values and none behind them, which are another work-item's. */
-static inline void store_values(Real value, const Block* block, __global float* values) {
+static inline void store_values(Real value, const Block* block, __global Scalar* values) {
   if (block->end - block->begin == SQUALL_LANES) {
     store_lanes(value, values + block->begin);
     return;
   }
-  float lanes[SQUALL_LANES];
+  Scalar lanes[SQUALL_LANES];
   store_lanes(value, lanes);
   for (int i = block->begin; i < block->end; ++i) values[i] = lanes[i - block->begin];
 }
 
-static inline void store_field(Real value, int field, int stride, const Block* block, __global float* solve) {
+static inline void store_field(Real value, int field, int stride, const Block* block, __global Scalar* solve) {
   store_values(value, block, solve + (size_t)field * (size_t)stride);
 }
 
 /* Writes a field of the block's records. */
-static inline void scatter(Real value, const Block* block, int field, __global float* records) {
-  float lanes[SQUALL_LANES];
+static inline void scatter(Real value, const Block* block, int field, __global Scalar* records) {
+  Scalar lanes[SQUALL_LANES];
   store_lanes(value, lanes);
   for (int i = block->begin; i < block->end; ++i) records[8 * (size_t)i + field] = lanes[i - block->begin];
 }
 
 /* What the block adds to a sum that decides. */
 static inline long sum_of_terms(Real errors, const Block* block) {
-  float lanes[SQUALL_LANES];
+  Scalar lanes[SQUALL_LANES];
   store_lanes(errors, lanes);
   long sum = 0;
   for (int lane = 0; lane < block->end - block->begin; ++lane) sum += convergence_term(lanes[lane]);

@@ -22,7 +22,7 @@ __kernel void solve_decide(__global SolveState* state, __global const long* shar
     return;
   }
   if (state->last > state->before) state->age = 0;
-  state->momentum = (float)state->age / (float)(state->age + 3);
+  state->momentum = (Scalar)state->age / (Scalar)(state->age + 3);
   ++state->age;
 }
 

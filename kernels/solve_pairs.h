@@ -11,15 +11,15 @@
 /* A value that the solves keep of particle i. */
 static inline size_t field_of(int field, int stride, int i) { return (size_t)field * (size_t)stride + (size_t)i; }
 
-static inline float4 opening_slope_of(__global const float* solve, int stride, int i) {
-  return (float4)(solve[field_of(SQUALL_OPENING_X, stride, i)], solve[field_of(SQUALL_OPENING_Y, stride, i)],
-                  solve[field_of(SQUALL_OPENING_Z, stride, i)], 0.0f);
+static inline Scalar4 opening_slope_of(__global const Scalar* solve, int stride, int i) {
+  return (Scalar4)(solve[field_of(SQUALL_OPENING_X, stride, i)], solve[field_of(SQUALL_OPENING_Y, stride, i)],
+                   solve[field_of(SQUALL_OPENING_Z, stride, i)], 0.0f);
 }
 
 /* Of a pair within reach, r^2 = r2. */
-static inline float weight_of(__constant Params* p, float r2) {
-  float r = sqrt(r2);
-  float slope = cubic_slope(remaining_support(r, p->inverse_support), remaining_support(r, p->inverse_half_support));
+static inline Scalar weight_of(__constant Params* p, Scalar r2) {
+  Scalar r = sqrt(r2);
+  Scalar slope = cubic_slope(remaining_support(r, p->inverse_support), remaining_support(r, p->inverse_half_support));
   return pair_weight(slope, r, p->tiny);
 }
 

@@ -24,37 +24,39 @@
 
 #ifdef __cplusplus
 
+#include <cstddef>
 #include <cstdint>
 
 namespace squall {
 
-/// As the kernels write it.
+/// As the kernels write it, but for two numbers of theirs that follow.
 struct SolveState {
   std::int64_t last, before;   ///< sums of errors that the last two iterations found
   std::int32_t solve;          ///< under way: SQUALL_DIVERGENCE_SOLVE, SQUALL_DENSITY_SOLVE, or SQUALL_SOLVED
   std::int32_t iterations[2];  ///< of each
   std::int32_t unconverged;    ///< solves that the limit of iterations cut short
   std::int32_t age;            ///< iterations since the start or since the error last grew
-  float momentum;              ///< of the next iteration
-  float correction;            ///< share of over-density that goes away in this sub-step
   std::int32_t reserved;
 };
-static_assert(sizeof(SolveState) == 48);
+static_assert(sizeof(SolveState) == 40);
+inline constexpr std::size_t k_solve_state_bytes = sizeof(SolveState) + 2 * sizeof(double);
 
 }  // namespace squall
 
 #else
 
+#include "shared.h"
+
 typedef struct {
   long last, before;
-  int solve, iterations[2], unconverged, age;
-  float momentum, correction;
-  int reserved;
+  int solve, iterations[2], unconverged, age, reserved;
+  Scalar momentum;   /* of the next iteration */
+  Scalar correction; /* share of over-density that goes away in this sub-step */
 } SolveState;
 
 /* core/convergence.h: what an error adds to the sum that decides. Not a number counts as 0. */
-static inline long convergence_term(float error) {
-  float clamped = error > 0.0f ? (error < 1024.0f ? error : 1024.0f) : 0.0f;
+static inline long convergence_term(Scalar error) {
+  Scalar clamped = error > 0.0f ? (error < 1024.0f ? error : 1024.0f) : 0.0f;
   return convert_long_rte(clamped * 4294967296.0f); /* 2^32 */
 }
 

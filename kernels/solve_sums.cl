@@ -6,8 +6,8 @@
 
 #if SQUALL_DFSPH && SQUALL_LANES == 1
 
-__kernel void solve_sums(__global const float* errors, __global const int* cell_start, __global const SolveState* state,
-                         __global long* shares, __constant Params* p, int solve) {
+__kernel void solve_sums(__global const Scalar* errors, __global const int* cell_start,
+                         __global const SolveState* state, __global long* shares, __constant Params* p, int solve) {
   if (solve >= 0 && state->solve != solve) return;
   int share = (int)get_global_id(0), step = (int)get_global_size(0);
   int active = cell_start[p->cell_count];

@@ -7,17 +7,17 @@
 
 #if SQUALL_LANES == 1
 
-__kernel void sort_count(__global const float4* records, __global const uint* ids, __global int* bins,
-                         __global int* arrivals, __global int* counts, __global float2* maxima, __global int* clamps,
+__kernel void sort_count(__global const Scalar4* records, __global const uint* ids, __global int* bins,
+                         __global int* arrivals, __global int* counts, __global Scalar2* maxima, __global int* clamps,
                          __constant Params* p, __constant HeldGroup* groups, __global const Substep* substeps,
                          int blocks, int step, int count) {
   int i = (int)get_global_id(0);
   if (step == 0 && i == 0) *clamps = 0;
   if (i >= count) return;
-  float4 position = records[2 * (size_t)i];
-  float2 largest = motion_of(position, records[2 * (size_t)i + 1]);
+  Scalar4 position = records[2 * (size_t)i];
+  Scalar2 largest = motion_of(position, records[2 * (size_t)i + 1]);
   /* Before the first sub-step the spare fields belong to the frame before. */
-  maxima[i] = step > 0 ? fmax(maxima[i], largest) : (float2)(0.0f, 0.0f);
+  maxima[i] = step > 0 ? fmax(maxima[i], largest) : (Scalar2)(0.0f, 0.0f);
   int bin = bin_of(p, sort_key(p, groups, substeps[step].held_count, position, ids[i]), i, blocks);
   bins[i] = bin;
   arrivals[i] = atomic_inc(counts + bin);

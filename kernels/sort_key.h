@@ -4,7 +4,7 @@
 
 #include "grid.h"
 
-static inline int sort_key(__constant Params* p, __constant HeldGroup* groups, int held_count, float4 position,
+static inline int sort_key(__constant Params* p, __constant HeldGroup* groups, int held_count, Scalar4 position,
                            uint id) {
   if (is_lost(position.x)) return lost_cell(p);
   for (int g = 0; g < held_count; ++g)

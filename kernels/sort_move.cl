@@ -7,16 +7,16 @@
 
 #if SQUALL_LANES == 1
 
-__kernel void sort_move(__global const float4* records, __global const uint* ids, __global const int* bins,
-                        __global const int* members, __global const int* starts, __global float4* sorted,
-                        __global uint* sorted_ids, __global float4* places, int count) {
+__kernel void sort_move(__global const Scalar4* records, __global const uint* ids, __global const int* bins,
+                        __global const int* members, __global const int* starts, __global Scalar4* sorted,
+                        __global uint* sorted_ids, __global Scalar4* places, int count) {
   int i = (int)get_global_id(0);
   if (i >= count) return;
   int begin = starts[bins[i]], end = starts[bins[i] + 1];
   int smaller = 0;
   for (int m = begin; m < end; ++m) smaller += members[m] < i;
   size_t to = (size_t)(begin + smaller);
-  float4 position = records[2 * (size_t)i];
+  Scalar4 position = records[2 * (size_t)i];
   sorted[2 * to] = position;
   sorted[2 * to + 1] = records[2 * (size_t)i + 1];
   sorted_ids[to] = ids[i];

@@ -6,28 +6,28 @@
 #include "grid.h"
 #include "motion.h"
 
-__kernel void summary(__global const float4* records, __global const float* densities, __global const int* neighbours,
-                      __global const int* cell_start, __global const float2* maxima, __global const int* clamps,
+__kernel void summary(__global const Scalar4* records, __global const Scalar* densities, __global const int* neighbours,
+                      __global const int* cell_start, __global const Scalar2* maxima, __global const int* clamps,
                       __constant Params* p, int statistics, int count, __global ChunkSummary* summaries) {
   int chunk = (int)get_global_id(0);
   int chunks = (int)get_global_size(0);
   int active = cell_start[p->cell_count];
   ChunkSummary sum = {0, 0, 0.0f, 0.0f, 0.0f, 0, 0, 0};
 #if SQUALL_LANES > 1
-  float2 largest = maxima[chunk];
+  Scalar2 largest = maxima[chunk];
 #else
-  float2 largest = (float2)(0.0f, 0.0f);
+  Scalar2 largest = (Scalar2)(0.0f, 0.0f);
 #endif
   int end = chunk_begin(count, chunk + 1, chunks);
   for (int i = chunk_begin(count, chunk, chunks); i < end; ++i) {
-    float4 position = records[2 * (size_t)i];
+    Scalar4 position = records[2 * (size_t)i];
     largest = fmax(largest, motion_of(position, records[2 * (size_t)i + 1]));
 #if SQUALL_LANES == 1
     largest = fmax(largest, maxima[i]);
 #endif
     sum.lost += is_lost(position.x);
     if (statistics && i < active) {
-      float error = clamp(densities[i] - 1, 0.0f, 1024.0f);
+      Scalar error = clamp(densities[i] - 1, (Scalar)(0), (Scalar)(1024));
       sum.density_error += convert_long_rte(error * 4294967296.0f); /* 2^32 */
       sum.max_density = fmax(sum.max_density, densities[i]);
       sum.neighbours += neighbours[i];

@@ -13,12 +13,12 @@ command -v oclgrind >/dev/null || {
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
-check() {  # check SCENE PRESSURE SIMD READBACK OPTION...: kernels of one solver and width, and one read-back mode
-  local scene=$1 pressure=$2 simd=$3 readback=$4
-  shift 4
+check() {  # check SCENE PRESSURE SIMD READBACK PRECISION OPTION...: kernels of one solver and width, and one read-back mode
+  local scene=$1 pressure=$2 simd=$3 readback=$4 precision=$5
+  shift 5
   oclgrind --log "$out/log" --build-options -O1 --max-errors 20 "$@" \
-    "$squall" run "$scene" --pressure "$pressure" --backend opencl --simd "$simd" --readback "$readback" --frames 2 --quiet \
-    --json "$out/run.json"
+    "$squall" run "$scene" --pressure "$pressure" --backend opencl --simd "$simd" --precision "$precision" \
+    --readback "$readback" --frames 2 --quiet --json "$out/run.json"
   python3 - "$out/run.json" <<'PYTHON'
 import json, sys
 run = json.load(open(sys.argv[1]))["runs"][0]
@@ -34,13 +34,18 @@ PYTHON
 
 sed '/^\[\[rain\]\]/,$d' "$scene" >"$out/dry.toml"
 for simd in scalar avx2; do # a work-item per particle; blocks of eight
-  check "$scene" wcsph "$simd" mapped --data-races
-  check "$scene" dfsph "$simd" mapped --data-races
-  check "$out/dry.toml" wcsph "$simd" mapped --data-races --uninitialized
+  check "$scene" wcsph "$simd" mapped single --data-races
+  check "$scene" dfsph "$simd" mapped single --data-races
+  check "$out/dry.toml" wcsph "$simd" mapped single --data-races --uninitialized
 done
 for readback in async quantized; do # the kernels that write positions, and the queue that async adds
-  check "$out/dry.toml" wcsph scalar "$readback" --data-races --uninitialized
+  check "$out/dry.toml" wcsph scalar "$readback" single --data-races --uninitialized
 done
 # Oclgrind 21.10 itself crashes in this check of dfsph's kernels with a work-item per particle.
-check "$out/dry.toml" dfsph avx2 mapped --data-races --uninitialized
+check "$out/dry.toml" dfsph avx2 mapped single --data-races --uninitialized
+# In double precision the kernels are the same text; vectors are of four, and positions are rounded on the way out.
+for simd in scalar avx2; do
+  check "$scene" wcsph "$simd" mapped double --data-races
+  check "$scene" dfsph "$simd" mapped double --data-races
+done
 echo "oclgrind found nothing"

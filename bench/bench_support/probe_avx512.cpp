@@ -1,4 +1,4 @@
-#include "backend_omp/highway_pack.h"
+#include "backend_omp/highway_single.h"
 //
 #include "bench_support/probe-inl.h"
 

@@ -1,4 +1,4 @@
-#include "backend_omp/scalar_pack.h"
+#include "backend_omp/scalar_single.h"
 //
 #include "bench_support/probe-inl.h"
 

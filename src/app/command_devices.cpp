@@ -13,7 +13,7 @@ namespace squall::app {
 namespace {
 
 std::string devices_text(const std::vector<BackendInfo>& backends) {
-  Table table({"backend", "device", "name", "platform", "kind", "units", "driver", "same bits"}, true);
+  Table table({"backend", "device", "name", "platform", "kind", "units", "driver", "double", "same bits"}, true);
   std::string problems;
   for (const auto& backend : backends) {
     if (!backend.problem.empty()) problems += fmt::format("{}: {}\n", backend.name, backend.problem);
@@ -21,7 +21,7 @@ std::string devices_text(const std::vector<BackendInfo>& backends) {
     for (const auto& device : backend.devices) {
       const bool runs = device.problem.empty();
       table.add({backend.name, std::to_string(device.index), device.name, device.platform, device.kind,
-                 std::to_string(device.compute_units), device.driver,
+                 std::to_string(device.compute_units), device.driver, device.has_double ? "yes" : "no",
                  !runs            ? "cannot run"
                  : device.bitwise ? "yes"
                                   : "no"});

@@ -63,8 +63,6 @@ std::vector<std::string> drop_contradicted_variables(const IsFlag& is_flag, Opti
   drop("--tune", "SQUALL_TUNE", no_opencl && options.tune, options.tune);
   drop("--threads", "SQUALL_THREADS", only_reference(options) && several_threads(options), options.threads);
   drop("--simd", "SQUALL_SIMD", only_reference(options) && options.simd.has_value(), options.simd);
-  drop("--precision", "SQUALL_PRECISION",
-       !takes_part(options, "reference") && options.precision == Precision::double_precision, options.precision);
   return notes;
 }
 

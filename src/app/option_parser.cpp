@@ -97,7 +97,7 @@ void add_solver_options(CLI::App& command, Raw& raw) {
   add(command, "--simd", raw.simd,
       "scalar, avx2 or avx512: width of omp's vectors (else the widest there is) and of opencl's (else by device)")
       ->type_name("NAME");
-  add(command, "--precision", raw.precision, "reference: single or double (its default); the others are single")
+  add(command, "--precision", raw.precision, "single or double; else single, and double with reference")
       ->type_name("NAME");
 }
 

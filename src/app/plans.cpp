@@ -58,14 +58,18 @@ std::vector<DeviceInfo> select_devices(const BackendInfo& backend, const std::st
   return selected;
 }
 
+/// As asked for; else reference is the yardstick in double, and the others are fast.
+Precision precision_of(const Options& options, const std::string& backend) {
+  return options.precision.value_or(backend == "reference" ? Precision::double_precision : Precision::single_precision);
+}
+
 RunPlan base_plan(const Options& options, const Workload& workload, const std::string& backend) {
   RunPlan plan;
   plan.backend = backend;
   plan.settings.pressure = workload.pressure;
   plan.settings.seed = options.seed;
   plan.settings.trace = !options.trace.empty();
-  plan.settings.precision = Precision::single_precision;
-  if (backend == "reference") plan.settings.precision = options.precision.value_or(Precision::double_precision);
+  plan.settings.precision = precision_of(options, backend);
   if (backend != "reference" && options.simd) plan.settings.simd = *options.simd;
   return plan;
 }
@@ -77,16 +81,23 @@ std::string threads_text(int threads) {
 void name_plan(RunPlan& plan) {
   const Settings& settings = plan.settings;
   plan.label = plan.backend;
-  if (plan.backend == "reference")
-    plan.label += settings.precision == Precision::double_precision ? ", double" : ", single";
+  const bool single = settings.precision == Precision::single_precision;
+  if (plan.backend == "reference") plan.label += single ? ", single" : ", double";
   if (plan.backend == "opencl") plan.label += fmt::format(" {}, {}", settings.device, to_string(settings.readback));
   plan.label += threads_text(settings.threads);
+  if (plan.backend != "reference" && !single) plan.label += ", double";
 }
 
-void refuse_double(const Options& options, bool with_reference) {
-  if (options.precision == Precision::double_precision && !with_reference)
-    throw UsageError(
-        "--precision double with omp or opencl is not in this version; it has it with --backend reference");
+/// Why a device cannot run in a precision; empty if it can.
+std::string problem_in(const DeviceInfo& device, Precision precision) {
+  if (!device.problem.empty()) return device.problem;
+  if (precision == Precision::single_precision || device.has_double) return "";
+  return "it does not compute in double precision (OpenCL: it lacks the extension cl_khr_fp64)";
+}
+
+/// Whether runs on it must give the bits of the others.
+bool promises_bits(const DeviceInfo& device, Precision precision) {
+  return precision == Precision::single_precision ? device.bitwise : device.has_double;
 }
 
 std::string default_backend(const Options& options, const std::vector<BackendInfo>& backends) {
@@ -159,14 +170,16 @@ class ComparisonPlanner {
     for (const int threads : omp_threads(options_, omp)) {
       RunPlan plan = base_plan(options_, workload_, "omp");
       plan.settings.threads = threads;
-      add(std::move(plan), omp.devices.empty() || omp.devices.front().bitwise);
+      const bool strict = omp.devices.empty() || promises_bits(omp.devices.front(), plan.settings.precision);
+      add(std::move(plan), strict);
     }
   }
   void add_opencl() {
     for (const DeviceInfo& device : select_devices(find_backend(backends_, "opencl"), options_.device)) {
-      if (!device.problem.empty()) {
-        if (!options_.device.empty()) throw DeviceError(device.name + " cannot run: " + device.problem);
-        result_.left_out.push_back(device.name + " is left out: " + device.problem);
+      const std::string problem = problem_in(device, precision_of(options_, "opencl"));
+      if (!problem.empty()) {
+        if (!options_.device.empty()) throw DeviceError(device.name + " cannot run: " + problem);
+        result_.left_out.push_back(device.name + " is left out: " + problem);
         continue;
       }
       // A GPU has no threads to choose.
@@ -180,7 +193,8 @@ class ComparisonPlanner {
       plan.settings.device = std::to_string(device.index);
       plan.settings.threads = threads;
       plan.settings.readback = mode;
-      add(std::move(plan), device.bitwise);
+      const bool strict = promises_bits(device, plan.settings.precision);
+      add(std::move(plan), strict);
     }
   }
 
@@ -194,15 +208,15 @@ class ComparisonPlanner {
 
 RunPlan plan_run(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
   const std::string name = default_backend(options, backends);
-  refuse_double(options, name == "reference");
   const BackendInfo& backend = find_backend(backends, name);
   if (const auto problem = problem_of(backend); !problem.empty())
     throw DeviceError("backend " + name + " cannot run: " + problem);
   const DeviceInfo device = select_devices(backend, options.device).front();
-  if (!device.problem.empty()) throw DeviceError(device.name + " cannot run: " + device.problem);
-
   RunPlan plan = base_plan(options, workload, name);
-  plan.strict = device.bitwise;
+  const Precision precision = plan.settings.precision;
+  if (const auto problem = problem_in(device, precision); !problem.empty())
+    throw DeviceError(device.name + " cannot run: " + problem);
+  plan.strict = promises_bits(device, precision);
   if (name == "opencl") plan.settings.device = std::to_string(device.index);
   if (!options.threads.empty()) plan.settings.threads = options.threads.front();
   if (!options.readbacks.empty()) plan.settings.readback = options.readbacks.front();
@@ -215,8 +229,6 @@ RunPlan plan_run(const Options& options, const Workload& workload, const std::ve
 }
 
 Plans plan_comparison(const Options& options, const Workload& workload, const std::vector<BackendInfo>& backends) {
-  const auto& asked = options.backends;
-  refuse_double(options, std::count(asked.begin(), asked.end(), "reference") > 0);
   return ComparisonPlanner(options, workload, backends).plan();
 }
 
@@ -251,13 +263,13 @@ RunPlan validation_plan(const Options& options, Pressure pressure, const Backend
   plan.backend = backend.name;
   plan.settings.pressure = pressure;
   plan.settings.seed = options.seed;
-  plan.settings.precision = backend.name == "reference" ? options.precision.value_or(Precision::double_precision)
-                                                        : Precision::single_precision;
+  plan.settings.precision = precision_of(options, backend.name);
   if (backend.name != "reference" && options.simd) plan.settings.simd = *options.simd;
   if (backend.name != "reference" && !options.threads.empty()) plan.settings.threads = options.threads.front();
   if (backend.name == "opencl") {
     const DeviceInfo device = select_devices(backend, options.device).front();
-    if (!device.problem.empty()) throw DeviceError(device.name + " cannot run: " + device.problem);
+    if (const auto problem = problem_in(device, plan.settings.precision); !problem.empty())
+      throw DeviceError(device.name + " cannot run: " + problem);
     plan.settings.device = std::to_string(device.index);
   }
   plan.label = plan.backend;

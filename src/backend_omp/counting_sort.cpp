@@ -8,7 +8,8 @@ namespace squall::openmp {
 
 namespace {
 
-int key_of(const Params<float>& p, std::span<const HeldGroup> held, const Record& record, std::uint32_t id) {
+template <class Scalar>
+int key_of(const Params<Scalar>& p, std::span<const HeldGroup> held, const Record<Scalar>& record, std::uint32_t id) {
   if (is_lost(record.x)) return lost_cell(&p);
   for (const HeldGroup& group : held)
     if (id >= group.first_id && id < group.end_id) return held_cell(&p);
@@ -17,20 +18,23 @@ int key_of(const Params<float>& p, std::span<const HeldGroup> held, const Record
 
 }  // namespace
 
-CountingSort::CountingSort(int cell_count, int threads)
+template <class Scalar>
+CountingSort<Scalar>::CountingSort(int cell_count, int threads)
     : keys_(cell_count + 2),
       counts_(static_cast<std::size_t>(threads)),
       sums_(static_cast<std::size_t>(threads)),
       cell_start_(static_cast<std::size_t>(cell_count) + 3, 0) {}
 
-int* CountingSort::clear_counts(int thread) {
+template <class Scalar>
+int* CountingSort<Scalar>::clear_counts(int thread) {
   std::vector<int>& counts = counts_[static_cast<std::size_t>(thread)];
   counts.assign(static_cast<std::size_t>(keys_), 0);  // the first time by the thread whose it is
   return counts.data();
 }
 
-void CountingSort::count(int thread, Range range, const Params<float>& p, std::span<const HeldGroup> held,
-                         const UnsortedParticles& from) {
+template <class Scalar>
+void CountingSort<Scalar>::count(int thread, Range range, const Params<Scalar>& p, std::span<const HeldGroup> held,
+                                 const UnsortedParticles<Scalar>& from) {
   std::vector<int>& counts = counts_[static_cast<std::size_t>(thread)];
   for (int i = range.begin; i < range.end; ++i) {
     from.keys[i] = key_of(p, held, from.records[i], from.ids[i]);
@@ -38,7 +42,8 @@ void CountingSort::count(int thread, Range range, const Params<float>& p, std::s
   }
 }
 
-void CountingSort::sum_keys(int thread, int threads) {
+template <class Scalar>
+void CountingSort<Scalar>::sum_keys(int thread, int threads) {
   int sum = 0;
   const Range share = share_of(keys_, thread, threads);
   for (int t = 0; t < threads; ++t) {
@@ -48,7 +53,8 @@ void CountingSort::sum_keys(int thread, int threads) {
   sums_[static_cast<std::size_t>(thread)] = sum;
 }
 
-void CountingSort::place_keys(int thread, int threads, int count) {
+template <class Scalar>
+void CountingSort<Scalar>::place_keys(int thread, int threads, int count) {
   int next = 0;
   for (int before = 0; before < thread; ++before) next += sums_[static_cast<std::size_t>(before)];
   const Range share = share_of(keys_, thread, threads);
@@ -64,8 +70,9 @@ void CountingSort::place_keys(int thread, int threads, int count) {
   if (thread == threads - 1) cell_start_[static_cast<std::size_t>(keys_)] = count;
 }
 
-void CountingSort::sort(TeamBarrier& barrier, int thread, Range chunk, int count, const UnsortedParticles& from,
-                        const SortedParticles& to) {
+template <class Scalar>
+void CountingSort<Scalar>::sort(TeamBarrier& barrier, int thread, Range chunk, int count,
+                                const UnsortedParticles<Scalar>& from, const SortedParticles<Scalar>& to) {
   const int threads = barrier.threads();
   sum_keys(thread, threads);
   barrier.wait(thread);
@@ -74,7 +81,7 @@ void CountingSort::sort(TeamBarrier& barrier, int thread, Range chunk, int count
   int* next = counts_[static_cast<std::size_t>(thread)].data();
   for (int i = chunk.begin; i < chunk.end; ++i) {
     const int place = next[from.keys[i]]++;
-    const Record record = from.records[i];
+    const Record<Scalar> record = from.records[i];
     to.records[place] = record;
     to.ids[place] = from.ids[i];
     to.x[place] = record.x;
@@ -83,5 +90,8 @@ void CountingSort::sort(TeamBarrier& barrier, int thread, Range chunk, int count
   }
   barrier.wait(thread);
 }
+
+template class CountingSort<float>;
+template class CountingSort<double>;
 
 }  // namespace squall::openmp

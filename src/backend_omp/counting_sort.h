@@ -10,24 +10,27 @@
 namespace squall::openmp {
 
 /// Particles as they are before a sort, with the key (cell, held or lost) of each.
+template <class Scalar>
 struct UnsortedParticles {
-  const Record* records;
+  const Record<Scalar>* records;
   const std::uint32_t* ids;
   int* keys;
 };
 
 /// Where sorted particles go: records, ids, and the coordinates once more, each in a row.
+template <class Scalar>
 struct SortedParticles {
-  Record* records;
+  Record<Scalar>* records;
   std::uint32_t* ids;
-  float* x;
-  float* y;
-  float* z;
+  Scalar* x;
+  Scalar* y;
+  Scalar* z;
 };
 
 /// A stable counting sort by cell, run by a team of up to `threads` threads: each takes a contiguous chunk of the
 /// particles, counts its cells and scatters to where chunks before it and cells before end. Chunks follow each other in
 /// the order of the threads.
+template <class Scalar>
 class CountingSort {
  public:
   CountingSort(int cell_count, int threads);
@@ -39,13 +42,13 @@ class CountingSort {
   int* clear_counts(int thread);
 
   /// Writes the keys of a range of particles and adds them to what the thread has counted.
-  void count(int thread, Range range, const Params<float>& p, std::span<const HeldGroup> held,
-             const UnsortedParticles& from);
+  void count(int thread, Range range, const Params<Scalar>& p, std::span<const HeldGroup> held,
+             const UnsortedParticles<Scalar>& from);
 
   /// Sorts the first `count` particles. Called by every thread of the barrier's team once all of them have counted
   /// their chunks and a barrier is behind that; waits there, too. Sorted on return, for every thread.
-  void sort(TeamBarrier& barrier, int thread, Range chunk, int count, const UnsortedParticles& from,
-            const SortedParticles& to);
+  void sort(TeamBarrier& barrier, int thread, Range chunk, int count, const UnsortedParticles<Scalar>& from,
+            const SortedParticles<Scalar>& to);
 
  private:
   void sum_keys(int thread, int threads);

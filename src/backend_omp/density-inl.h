@@ -1,6 +1,6 @@
 #pragma once
 
-// Included once per instruction set, after its Pack: neighbours, density, and what it says of pressure.
+// Included once per instruction set and precision, after its Pack: neighbours, density, and what it says of pressure.
 
 #include "backend_omp/neighbours-inl.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 /// What a neighbour adds to the density's kernel sum, and whether it is near any lane at all.
 template <class Pack, Pressure pressure>
-Pack density_term(const Params<float>& p, Pack dx, Pack dy, Pack dz, bool& near) {
+Pack density_term(const Params<Scalar>& p, Pack dx, Pack dy, Pack dz, bool& near) {
   if constexpr (pressure == Pressure::wcsph) {
     const Pack r2 = squared_length(dx, dy, dz);
     near = any(r2 < Pack(p.list_squared));
@@ -26,13 +26,13 @@ Pack density_term(const Params<float>& p, Pack dx, Pack dy, Pack dz, bool& near)
 
 /// The density's kernel sum over a list, from which it takes what is near no lane of the block.
 template <class Pack, Pressure pressure>
-Pack density_sum(const PassContext& context, const Pack* position, int* list, int& count) {
+Pack density_sum(const PassContext<Scalar>& context, const Pack* position, int* list, int& count) {
   const Pack x = position[0], y = position[1], z = position[2];
   Pack sums[2] = {Pack(0.0f), Pack(0.0f)};  // by the parity of the sorted index
   int kept = 0;
   for (int k = 0; k < count; ++k) {
     const int j = list[k];
-    const Record& b = context.sorted[j];
+    const Record<Scalar>& b = context.sorted[j];
     bool near = false;
     const Pack term = density_term<Pack, pressure>(*context.params, x - Pack(b.x), y - Pack(b.y), z - Pack(b.z), near);
     list[kept] = j;
@@ -44,8 +44,8 @@ Pack density_sum(const PassContext& context, const Pack* position, int* list, in
 }
 
 template <class Pack, Pressure pressure>
-void density_of_block(const PassContext& context, const Block& block, NeighbourList& neighbours) {
-  const Params<float>& p = *context.params;
+void density_of_block(const PassContext<Scalar>& context, const Block& block, NeighbourList<Scalar>& neighbours) {
+  const Params<Scalar>& p = *context.params;
   Range ranges[9];
   int total = 0;
   const int range_count = candidate_ranges(context, block, ranges, total);
@@ -78,7 +78,7 @@ void density_of_block(const PassContext& context, const Block& block, NeighbourL
   if (context.terms.drag)
     store_lanes(context.isolation, block,
                 isolation(sum, Pack(p.self_value), Pack(p.density_scale), wall_share, Pack(p.steepness)));
-  alignas(64) float pressures[Pack::k_lanes], volumes[Pack::k_lanes];
+  alignas(64) Scalar pressures[Pack::k_lanes], volumes[Pack::k_lanes];
   pressure_term.store(pressures);
   volume_term.store(volumes);
   for (int lane = 0; lane < block.count(); ++lane) {

@@ -1,6 +1,7 @@
 #pragma once
 
-// Included once per instruction set, after its Pack: what neighbours and walls do to the particles of a block.
+// Included once per instruction set and precision, after its Pack: what neighbours and walls do to the particles of a
+// block.
 
 #include "backend_omp/block-inl.h"
 
@@ -12,8 +13,8 @@ namespace {
 template <class Pack>
 struct Lanes {
   Pack fields[8];
-  Lanes(const Record* records, int begin) {
-    const auto* from = reinterpret_cast<const float*>(records + begin);
+  Lanes(const Record<Scalar>* records, int begin) {
+    const auto* from = reinterpret_cast<const Scalar*>(records + begin);
     load_fields(from, 0, fields);
     load_fields(from, 4, fields + 4);
   }
@@ -43,7 +44,7 @@ struct LoopConstants {
   Pack inverse_support, inverse_half_support, softening, tiny, artificial_scale, viscosity_scale;
   Pack vx, vy, vz, pressure, volume;
 
-  LoopConstants(const Params<float>& p, const Lanes<Pack>& a, Pack pressure)
+  LoopConstants(const Params<Scalar>& p, const Lanes<Pack>& a, Pack pressure)
       : inverse_support(p.inverse_support),
         inverse_half_support(p.inverse_half_support),
         softening(p.softening),
@@ -60,7 +61,7 @@ struct LoopConstants {
 /// -(v_i - v_j) . (x_i - x_j). Here and in add_velocity the difference is taken in whichever order brings the
 /// neighbour's velocity straight from memory; the bits are the same.
 template <class Pack>
-Pack closing_speed(const LoopConstants<Pack>& c, const Record& b, Pack dx, Pack dy, Pack dz) {
+Pack closing_speed(const LoopConstants<Pack>& c, const Record<Scalar>& b, Pack dx, Pack dy, Pack dz) {
   const Pack vx(b.vx), vy(b.vy), vz(b.vz);
   if constexpr (Pack::k_many_registers)
     return nfma(c.vz - vz, dz, nfma(c.vy - vy, dy, nfma(c.vx - vx, dx, Pack(0.0f))));
@@ -70,7 +71,7 @@ Pack closing_speed(const LoopConstants<Pack>& c, const Record& b, Pack dx, Pack 
 
 /// sum + s (v_j - v_i)
 template <class Pack>
-void add_velocity(const LoopConstants<Pack>& c, const Record& b, Pack s, Vector<Pack>& sum) {
+void add_velocity(const LoopConstants<Pack>& c, const Record<Scalar>& b, Pack s, Vector<Pack>& sum) {
   const Pack vx(b.vx), vy(b.vy), vz(b.vz);
   if constexpr (Pack::k_many_registers)
     sum = {nfma(s, c.vx - vx, sum.x), nfma(s, c.vy - vy, sum.y), nfma(s, c.vz - vz, sum.z)};
@@ -96,9 +97,9 @@ void add_stretch(const Stretch<Pack>& s, int count, Vector<Pack>& sum) {
 }
 
 template <class Pack, bool viscous>
-Vector<Pack> wcsph_acceleration(const PassContext& context, const Block& block, const Lanes<Pack>& a, const int* list,
-                                int total) {
-  const Params<float>& p = *context.params;
+Vector<Pack> wcsph_acceleration(const PassContext<Scalar>& context, const Block& block, const Lanes<Pack>& a,
+                                const int* list, int total) {
+  const Params<Scalar>& p = *context.params;
   const Pack x = a.x(), y = a.y(), z = a.z();
   const LoopConstants<Pack> c(p, a, a.pressure_term());
   Vector<Pack> sum;
@@ -106,7 +107,7 @@ Vector<Pack> wcsph_acceleration(const PassContext& context, const Block& block, 
   for (; total > 0; total -= k_stretch, list += k_stretch) {
     const int count = total < k_stretch ? total : k_stretch;
     for (int k = 0; k < count; ++k) {
-      const Record& b = context.sorted[list[k]];
+      const Record<Scalar>& b = context.sorted[list[k]];
       s.x[k] = x - Pack(b.x);
       s.y[k] = y - Pack(b.y);
       s.z[k] = z - Pack(b.z);
@@ -115,7 +116,7 @@ Vector<Pack> wcsph_acceleration(const PassContext& context, const Block& block, 
       s.closing[k] = closing_speed(c, b, s.x[k], s.y[k], s.z[k]);
     }
     for (int k = 0; k < count; ++k) {
-      const Record& b = context.sorted[list[k]];
+      const Record<Scalar>& b = context.sorted[list[k]];
       const Pack u = remaining_support(s.r[k], c.inverse_support);
       const Pack w = remaining_support(s.r[k], c.inverse_half_support);
       Pack shear = c.artificial_scale * max0(s.closing[k]);
@@ -133,9 +134,9 @@ Vector<Pack> wcsph_acceleration(const PassContext& context, const Block& block, 
 }
 
 template <class Pack, bool viscous>
-Vector<Pack> mueller_acceleration(const PassContext& context, const Block& block, const Lanes<Pack>& a, const int* list,
-                                  int total) {
-  const Params<float>& p = *context.params;
+Vector<Pack> mueller_acceleration(const PassContext<Scalar>& context, const Block& block, const Lanes<Pack>& a,
+                                  const int* list, int total) {
+  const Params<Scalar>& p = *context.params;
   const Pack x = a.x(), y = a.y(), z = a.z();
   const Pack pressure = Pack::load(context.pressure + block.begin);
   const Pack density = Pack::load(context.density + block.begin);
@@ -145,14 +146,14 @@ Vector<Pack> mueller_acceleration(const PassContext& context, const Block& block
   for (; total > 0; total -= k_stretch, list += k_stretch) {
     const int count = total < k_stretch ? total : k_stretch;
     for (int k = 0; k < count; ++k) {
-      const Record& b = context.sorted[list[k]];
+      const Record<Scalar>& b = context.sorted[list[k]];
       s.x[k] = x - Pack(b.x);
       s.y[k] = y - Pack(b.y);
       s.z[k] = z - Pack(b.z);
       s.r[k] = sqrt(squared_length(s.x[k], s.y[k], s.z[k]));
     }
     for (int k = 0; k < count; ++k) {
-      const Record& b = context.sorted[list[k]];
+      const Record<Scalar>& b = context.sorted[list[k]];
       const Pack u = remaining_support(s.r[k], c.inverse_support);
       const Pack volume(b.volume_term);
       s.numerator[k] = mueller_numerator(u, c.pressure, volume, Pack(b.pressure_term));

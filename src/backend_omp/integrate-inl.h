@@ -1,6 +1,6 @@
 #pragma once
 
-// Included once per instruction set, after its Pack: kick, drift and the safety net of a block.
+// Included once per instruction set and precision, after its Pack: kick, drift and the safety net of a block.
 
 #include <algorithm>
 
@@ -12,8 +12,8 @@ namespace {
 
 /// Adds the drag of air at the speed half a kick from now (midpoint rule) to the accelerations of lone drops.
 template <class Pack>
-void add_drag(const PassContext& context, const Block& block, const Pack* v, Pack* a) {
-  const Substep<float>& substep = *context.substep;
+void add_drag(const PassContext<Scalar>& context, const Block& block, const Pack* v, Pack* a) {
+  const Substep<Scalar>& substep = *context.substep;
   const Pack weight = Pack::load(context.isolation + block.begin);
   const Pack coefficient(context.params->drag_coefficient);
   const Pack half_kick(substep.kick * context.params->one_half);
@@ -29,17 +29,17 @@ void add_drag(const PassContext& context, const Block& block, const Pack* v, Pac
 /// Lanes that keep_inside would leave alone: inside the container, and on no way that touches the surroundings of a
 /// box.
 template <class Pack>
-bool all_clear(const PassContext& context, Mask valid, const Pack* from, const Pack* to) {
-  const Params<float>& p = *context.params;
+bool all_clear(const PassContext<Scalar>& context, Mask valid, const Pack* from, const Pack* to) {
+  const Params<Scalar>& p = *context.params;
   const Pack edge(p.clamp_distance);
-  const float top = p.lid == 0.0f ? p.size_y + p.lost_distance : p.size_y - p.clamp_distance;
-  const float far_sides[3] = {p.size_x - p.clamp_distance, top, p.size_z - p.clamp_distance};
+  const Scalar top = p.lid == 0.0f ? p.size_y + p.lost_distance : p.size_y - p.clamp_distance;
+  const Scalar far_sides[3] = {p.size_x - p.clamp_distance, top, p.size_z - p.clamp_distance};
   Mask inside = valid;
   for (int axis = 0; axis < 3; ++axis)  // written so that NaN is not inside
     inside = inside & (edge < to[axis]) & (to[axis] < Pack(far_sides[axis]));
   if (!all(inside, valid)) return false;
   for (int b = 0; b < context.substep->box_count; ++b) {
-    const Box<float>& box = context.boxes[b];
+    const Box<Scalar>& box = context.boxes[b];
     Mask touched = valid;
     for (int axis = 0; axis < 3; ++axis) {
       touched = touched & (Pack(box.solid_min[axis] - p.clamp_distance) < larger(from[axis], to[axis])) &
@@ -52,9 +52,9 @@ bool all_clear(const PassContext& context, Mask valid, const Pack* from, const P
 
 /// Puts every particle of the block through keep_inside, one at a time. Returns the lanes that are not lost.
 template <class Pack>
-Mask keep_block_inside(const PassContext& context, const Block& block, const Pack* from, Pack* x, Pack* v,
-                       PassResult& result) {
-  alignas(64) float starts[3][Pack::k_lanes], ends[3][Pack::k_lanes], speeds[3][Pack::k_lanes], kept[Pack::k_lanes];
+Mask keep_block_inside(const PassContext<Scalar>& context, const Block& block, const Pack* from, Pack* x, Pack* v,
+                       PassResult<Scalar>& result) {
+  alignas(64) Scalar starts[3][Pack::k_lanes], ends[3][Pack::k_lanes], speeds[3][Pack::k_lanes], kept[Pack::k_lanes];
   for (int axis = 0; axis < 3; ++axis) {
     from[axis].store(starts[axis]);
     x[axis].store(ends[axis]);
@@ -63,9 +63,9 @@ Mask keep_block_inside(const PassContext& context, const Block& block, const Pac
   for (int lane = 0; lane < Pack::k_lanes; ++lane) {
     kept[lane] = lane < block.count() ? 1.0f : 0.0f;
     if (lane >= block.count()) continue;
-    const float start[3] = {starts[0][lane], starts[1][lane], starts[2][lane]};
-    float end[3] = {ends[0][lane], ends[1][lane], ends[2][lane]};
-    float speed[3] = {speeds[0][lane], speeds[1][lane], speeds[2][lane]};
+    const Scalar start[3] = {starts[0][lane], starts[1][lane], starts[2][lane]};
+    Scalar end[3] = {ends[0][lane], ends[1][lane], ends[2][lane]};
+    Scalar speed[3] = {speeds[0][lane], speeds[1][lane], speeds[2][lane]};
     const int event = keep_inside(context.params, context.boxes, context.substep->box_count, start, end, speed);
     result.clamps += (event & SQUALL_CLAMPED) != 0;
     result.lost += (event & SQUALL_LOST) != 0;
@@ -91,7 +91,7 @@ struct Maxima {
     speed2 = larger(speed2, select(lanes, squared_length(v[0], v[1], v[2]), Pack(0.0f)));
     acceleration2 = larger(acceleration2, select(lanes, squared_length(a[0], a[1], a[2]), Pack(0.0f)));
   }
-  void report(PassResult& result) const {
+  void report(PassResult<Scalar>& result) const {
     result.max_speed2 = std::max(result.max_speed2, first_lane(largest_lane(speed2)));
     result.max_acceleration2 = std::max(result.max_acceleration2, first_lane(largest_lane(acceleration2)));
   }
@@ -99,12 +99,13 @@ struct Maxima {
 
 /// Writes the block's records; none behind its end, which may be another thread's.
 template <class Pack>
-void write_records(const Block& block, const Pack* position, Pack pressure, const Pack* velocity, Record* next) {
+void write_records(const Block& block, const Pack* position, Pack pressure, const Pack* velocity,
+                   Record<Scalar>* next) {
   const Pack zero(0.0f);
   const Pack fields[8] = {position[0], position[1], position[2], pressure, velocity[0], velocity[1], velocity[2], zero};
-  Record part[Pack::k_lanes];
+  Record<Scalar> part[Pack::k_lanes];
   const bool full = block.count() == Pack::k_lanes;
-  auto* to = reinterpret_cast<float*>(full ? next + block.begin : part);
+  auto* to = reinterpret_cast<Scalar*>(full ? next + block.begin : part);
   store_fields(to, 0, fields);
   store_fields(to, 4, fields + 4);
   if (!full) std::copy(part, part + block.count(), next + block.begin);
@@ -112,8 +113,9 @@ void write_records(const Block& block, const Pack* position, Pack pressure, cons
 
 /// Notes in which cell each particle of the block is now; what is not in `kept` is lost.
 template <class Pack>
-void write_keys(const PassContext& context, const Block& block, const Pack* position, Mask kept, int* key_counts) {
-  const Params<float>& p = *context.params;
+void write_keys(const PassContext<Scalar>& context, const Block& block, const Pack* position, Mask kept,
+                int* key_counts) {
+  const Params<Scalar>& p = *context.params;
   const auto x = cell_coordinates(position[0], p.inverse_edge_x, p.cells_x);
   const auto y = cell_coordinates(position[1], p.inverse_edge_yz, p.cells_y);
   const auto z = cell_coordinates(position[2], p.inverse_edge_yz, p.cells_z);
@@ -127,8 +129,8 @@ void write_keys(const PassContext& context, const Block& block, const Pack* posi
 
 /// The end of a sub-step: safety net, maxima, records and keys of what went `from` somewhere `to` somewhere.
 template <class Pack>
-void finish_block(const PassContext& context, const Block& block, const Pack* from, Pack* to, Pack* v, const Pack* a,
-                  Pack pressure, PassResult& result, Maxima<Pack>& maxima, int* key_counts) {
+void finish_block(const PassContext<Scalar>& context, const Block& block, const Pack* from, Pack* to, Pack* v,
+                  const Pack* a, Pack pressure, PassResult<Scalar>& result, Maxima<Pack>& maxima, int* key_counts) {
   Mask kept = first_lanes(block.count());
   if (!all_clear(context, kept, from, to)) kept = kept & keep_block_inside(context, block, from, to, v, result);
   maxima.note(kept, v, a);
@@ -137,9 +139,9 @@ void finish_block(const PassContext& context, const Block& block, const Pack* fr
 }
 
 template <class Pack>
-void integrate_block(const PassContext& context, const Block& block, const Lanes<Pack>& at, const Vector<Pack>& force,
-                     PassResult& result, Maxima<Pack>& maxima, int* key_counts) {
-  const Substep<float>& substep = *context.substep;
+void integrate_block(const PassContext<Scalar>& context, const Block& block, const Lanes<Pack>& at,
+                     const Vector<Pack>& force, PassResult<Scalar>& result, Maxima<Pack>& maxima, int* key_counts) {
+  const Substep<Scalar>& substep = *context.substep;
   const Pack from[3] = {at.x(), at.y(), at.z()};
   Pack to[3] = {at.x(), at.y(), at.z()};
   Pack v[3] = {at.vx(), at.vy(), at.vz()};

@@ -1,7 +1,7 @@
 #pragma once
 
-// Included once per instruction set, after its Pack: dfsph's light passes, which walk lists with the weights of their
-// pairs. A pair costs a load of each value of the neighbour, of its weight, and little else.
+// Included once per instruction set and precision, after its Pack: dfsph's light passes, which walk lists with the
+// weights of their pairs. A pair costs a load of each value of the neighbour, of its weight, and little else.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,9 +15,9 @@ namespace {
 
 /// The records of a block and nothing of those behind it, which may be another thread's and be written.
 template <class Pack>
-Lanes<Pack> own_lanes(const Record* records, const Block& block) {
+Lanes<Pack> own_lanes(const Record<Scalar>* records, const Block& block) {
   if (block.count() == Pack::k_lanes) return Lanes<Pack>(records, block.begin);
-  Record part[Pack::k_lanes] = {};
+  Record<Scalar> part[Pack::k_lanes] = {};
   std::copy(records + block.begin, records + block.end, part);
   return Lanes<Pack>(part, 0);
 }
@@ -27,7 +27,8 @@ enum class Weights { near, far };  ///< in a near cache, or perhaps not
 /// Calls visit(neighbour, weight) for a list, two to a round: the loop itself is a tenth of a light pass. Weights from
 /// far away are asked for eight rounds before.
 template <class Pack, Weights weights_are, class Visit>
-SQUALL_INLINE void for_each_pair(const Record* records, const int* list, const float* weights, int count, Visit visit) {
+SQUALL_INLINE void for_each_pair(const Record<Scalar>* records, const int* list, const Scalar* weights, int count,
+                                 Visit visit) {
   int k = 0;
   for (; k + 1 < count; k += 2, weights += 2 * Pack::k_lanes) {
     if constexpr (weights_are == Weights::far) prefetch(weights, 16 * Pack::k_lanes);
@@ -40,11 +41,11 @@ SQUALL_INLINE void for_each_pair(const Record* records, const int* list, const f
 /// Sum of weight (v_ij.x_ij) over a list. Like the other loops over lists a function of its own, which has all
 /// registers.
 template <class Pack>
-SQUALL_NOINLINE Pack receding_sum(const Record* records, const Lanes<Pack>& a, const int* list, const float* weights,
-                                  int count) {
+SQUALL_NOINLINE Pack receding_sum(const Record<Scalar>* records, const Lanes<Pack>& a, const int* list,
+                                  const Scalar* weights, int count) {
   const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz();
   Pack sum(0.0f);
-  for_each_pair<Pack, Weights::far>(records, list, weights, count, [&](const Record& b, Pack weight) {
+  for_each_pair<Pack, Weights::far>(records, list, weights, count, [&](const Record<Scalar>& b, Pack weight) {
     const Pack receding =
         dot_product(x - Pack(b.x), y - Pack(b.y), z - Pack(b.z), vx - Pack(b.vx), vy - Pack(b.vy), vz - Pack(b.vz));
     sum = fma(weight, receding, sum);
@@ -54,11 +55,11 @@ SQUALL_NOINLINE Pack receding_sum(const Record* records, const Lanes<Pack>& a, c
 
 /// Sum of weight (change_i + change_j) x_ij over a list.
 template <class Pack>
-SQUALL_NOINLINE Vector<Pack> pushed_sum(const Record* records, const Lanes<Pack>& a, const int* list,
-                                        const float* weights, int count) {
+SQUALL_NOINLINE Vector<Pack> pushed_sum(const Record<Scalar>* records, const Lanes<Pack>& a, const int* list,
+                                        const Scalar* weights, int count) {
   const Pack x = a.x(), y = a.y(), z = a.z(), change = a.pressure_term();
   Vector<Pack> sum;
-  for_each_pair<Pack, Weights::far>(records, list, weights, count, [&](const Record& b, Pack weight) {
+  for_each_pair<Pack, Weights::far>(records, list, weights, count, [&](const Record<Scalar>& b, Pack weight) {
     sum.add_scaled((change + Pack(b.pressure_term)) * weight, x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
   });
   return sum;
@@ -67,18 +68,18 @@ SQUALL_NOINLINE Vector<Pack> pushed_sum(const Record* records, const Lanes<Pack>
 /// A block's part of an iteration, `sum` being its receding_sum: by how much its impulses change, for all to read.
 /// Returns the sum of its errors.
 template <class Pack>
-std::int64_t iterate_block(const PassContext& context, const Block& block, const Lanes<Pack>& a, Pack sum,
-                           float momentum) {
-  const Params<float>& p = *context.params;
-  const Substep<float>& substep = *context.substep;
-  const SolveArrays& arrays = context.solve;
-  const auto load = [&](const float* values) { return Pack::load(values + block.begin); };
+std::int64_t iterate_block(const PassContext<Scalar>& context, const Block& block, const Lanes<Pack>& a, Pack sum,
+                           Scalar momentum) {
+  const Params<Scalar>& p = *context.params;
+  const Substep<Scalar>& substep = *context.substep;
+  const SolveArrays<Scalar>& arrays = context.solve;
+  const auto load = [&](const Scalar* values) { return Pack::load(values + block.begin); };
   const Pack along =
       dot_product(a.vx(), a.vy(), a.vz(), load(arrays.opening_x), load(arrays.opening_y), load(arrays.opening_z));
   const Pack dt(substep.dt), impulse = load(arrays.impulse), inverse = load(arrays.inverse_response);
   const Pack lack = lack_of_compression(load(arrays.room), dt, compression_rate(sum, Pack(p.force_scale), along));
   const Pack projected = projected_impulse(impulse, lack, Pack(substep.relaxation_rate), inverse);
-  alignas(64) float changes[Pack::k_lanes];
+  alignas(64) Scalar changes[Pack::k_lanes];
   (extrapolated_impulse(projected, load(arrays.projected), Pack(momentum)) - impulse).store(changes);
   store_lanes(arrays.projected, block, projected);
   for (int lane = 0; lane < block.count(); ++lane) context.sorted[block.begin + lane].pressure_term = changes[lane];
@@ -87,16 +88,16 @@ std::int64_t iterate_block(const PassContext& context, const Block& block, const
 
 /// Writes velocities into the block's records, and what is behind them.
 template <class Pack>
-void write_velocities(const PassContext& context, const Block& block, Pack vx, Pack vy, Pack vz, Pack last) {
+void write_velocities(const PassContext<Scalar>& context, const Block& block, Pack vx, Pack vy, Pack vz, Pack last) {
   const Pack fields[4] = {vx, vy, vz, last};
   if (block.count() == Pack::k_lanes) {
-    store_fields(reinterpret_cast<float*>(context.sorted + block.begin), 4, fields);
+    store_fields(reinterpret_cast<Scalar*>(context.sorted + block.begin), 4, fields);
     return;
   }
-  Record part[Pack::k_lanes];
-  store_fields(reinterpret_cast<float*>(part), 4, fields);
+  Record<Scalar> part[Pack::k_lanes];
+  store_fields(reinterpret_cast<Scalar*>(part), 4, fields);
   for (int lane = 0; lane < block.count(); ++lane) {
-    Record& record = context.sorted[block.begin + lane];
+    Record<Scalar>& record = context.sorted[block.begin + lane];
     record.vx = part[lane].vx;
     record.vy = part[lane].vy;
     record.vz = part[lane].vz;
@@ -106,13 +107,14 @@ void write_velocities(const PassContext& context, const Block& block, Pack vx, P
 
 /// Velocities of a block after every particle's change of impulse.
 template <class Pack>
-void push_block(const PassContext& context, const Block& block, const int* list, const float* weights, int count) {
-  const SolveArrays& arrays = context.solve;
+void push_block(const PassContext<Scalar>& context, const Block& block, const int* list, const Scalar* weights,
+                int count) {
+  const SolveArrays<Scalar>& arrays = context.solve;
   const Lanes<Pack> lanes = own_lanes<Pack>(context.sorted, block);
   const Pack change = lanes.pressure_term();
   const Vector<Pack> sum = pushed_sum<Pack>(context.sorted, lanes, list, weights, count);
   const Pack scale(context.params->force_scale);
-  const auto pushed = [&](Pack v, Pack push, const float* opening) {
+  const auto pushed = [&](Pack v, Pack push, const Scalar* opening) {
     return v + fma(scale, push, change * Pack::load(opening + block.begin));
   };
   write_velocities(context, block, pushed(lanes.vx(), sum.x, arrays.opening_x),

@@ -6,18 +6,23 @@
 
 namespace squall::openmp {
 
-PairValues::PairValues(PairValues&& other) noexcept
+template <class Scalar>
+PairValues<Scalar>::PairValues(PairValues&& other) noexcept
     : data(std::exchange(other.data, nullptr)),
       used(std::exchange(other.used, 0)),
       capacity(std::exchange(other.capacity, 0)) {}
 
-PairValues::~PairValues() { std::free(data); }
+template <class Scalar>
+PairValues<Scalar>::~PairValues() {
+  std::free(data);
+}
 
-bool PairValues::grow(std::size_t more) {
+template <class Scalar>
+bool PairValues<Scalar>::grow(std::size_t more) {
   constexpr std::size_t k_line = 64;
   const std::size_t wanted = (used + more) + (used + more) / 2;
-  const std::size_t bytes = (wanted * sizeof(float) + k_line - 1) / k_line * k_line;
-  auto* larger = static_cast<float*>(std::aligned_alloc(k_line, bytes));
+  const std::size_t bytes = (wanted * sizeof(Scalar) + k_line - 1) / k_line * k_line;
+  auto* larger = static_cast<Scalar*>(std::aligned_alloc(k_line, bytes));
   if (larger == nullptr) return false;
   std::copy(data, data + used, larger);
   std::free(data);
@@ -26,16 +31,21 @@ bool PairValues::grow(std::size_t more) {
   return true;
 }
 
-NeighbourList::NeighbourList(NeighbourList&& other) noexcept
+template <class Scalar>
+NeighbourList<Scalar>::NeighbourList(NeighbourList&& other) noexcept
     : data(std::exchange(other.data, nullptr)),
       used(std::exchange(other.used, 0)),
       capacity(std::exchange(other.capacity, 0)),
       out_of_memory(other.out_of_memory),
       weights(std::move(other.weights)) {}
 
-NeighbourList::~NeighbourList() { std::free(data); }
+template <class Scalar>
+NeighbourList<Scalar>::~NeighbourList() {
+  std::free(data);
+}
 
-bool NeighbourList::grow(std::size_t more) {
+template <class Scalar>
+bool NeighbourList<Scalar>::grow(std::size_t more) {
   const std::size_t wanted = (used + more) + (used + more) / 2;
   void* larger = std::realloc(data, wanted * sizeof(int));
   if (larger == nullptr) {
@@ -46,5 +56,10 @@ bool NeighbourList::grow(std::size_t more) {
   capacity = wanted;
   return true;
 }
+
+template struct PairValues<float>;
+template struct PairValues<double>;
+template struct NeighbourList<float>;
+template struct NeighbourList<double>;
 
 }  // namespace squall::openmp

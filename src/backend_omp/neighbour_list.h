@@ -5,8 +5,9 @@
 namespace squall::openmp {
 
 /// A thread's values per neighbour and lane of its blocks, in the order of its NeighbourList; on cache lines.
+template <class Scalar>
 struct PairValues {
-  float* data = nullptr;
+  Scalar* data = nullptr;
   std::size_t used = 0;
   std::size_t capacity = 0;
 
@@ -25,12 +26,13 @@ struct PairValues {
 
 /// A thread's neighbour lists, block after block in the order the blocks are visited: a count, then sorted indices.
 /// Grows as needed; no limit on how many neighbours a particle has.
+template <class Scalar>
 struct NeighbourList {
   int* data = nullptr;
   std::size_t used = 0;
   std::size_t capacity = 0;
   bool out_of_memory = false;
-  PairValues weights;  ///< dfsph: pair_weight of each neighbour and lane
+  PairValues<Scalar> weights;  ///< dfsph: pair_weight of each neighbour and lane
 
   NeighbourList() = default;
   NeighbourList(NeighbourList&& other) noexcept;

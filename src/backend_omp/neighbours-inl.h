@@ -1,6 +1,6 @@
 #pragma once
 
-// Included once per instruction set, after its Pack: which particles a block may have as neighbours.
+// Included once per instruction set and precision, after its Pack: which particles a block may have as neighbours.
 
 #include "backend_omp/block-inl.h"
 
@@ -37,10 +37,10 @@ struct Bounds {
 /// superset of what lies within H of any of its particles, found for a vector of candidates at a time. What is beyond H
 /// adds exactly zero to every sum. Scribbles over up to k_lanes entries behind the last. Returns how many.
 template <class Pack>
-int find_neighbours(const PassContext& context, const Range* ranges, int range_count, const Bounds<Pack> bounds,
+int find_neighbours(const PassContext<Scalar>& context, const Range* ranges, int range_count, const Bounds<Pack> bounds,
                     int* list) {
   const Pack reach2(context.params->list_squared);
-  const float *x = context.x, *y = context.y, *z = context.z;
+  const Scalar *x = context.x, *y = context.y, *z = context.z;
   const int* const begin = list;
   for (int k = 0; k < range_count; ++k) {
     const int end = ranges[k].end;

@@ -8,9 +8,8 @@
 
 namespace squall::openmp {
 
-/// The CPU backend: OpenMP threads over rows of cells, SIMD lanes over particles. Single precision. The solver holds no
-/// particles yet. Throws InputError for double precision, DeviceError for an instruction set that this machine
-/// lacks.
+/// The CPU backend: OpenMP threads over rows of cells, SIMD lanes over particles, half as many in double precision. The
+/// solver holds no particles yet. Throws DeviceError for an instruction set that this machine lacks.
 std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings);
 
 /// The processor; never throws.

@@ -1,10 +1,12 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <string>
 #include <thread>
+#include <type_traits>
 
 #include "backend_omp/counting_sort.h"
 #include "backend_omp/omp_backend.h"
@@ -13,6 +15,7 @@
 #include "backend_omp/pressure_solve.h"
 #include "backend_omp/row_split.h"
 #include "backend_omp/team_array.h"
+#include "core/precision.h"
 #include "grid.h"
 
 namespace squall::openmp {
@@ -38,23 +41,22 @@ Simd choose_simd(Simd wanted) {
 
 constexpr std::size_t k_particles_per_thread = 256;  ///< fewer are done before another thread has woken up
 
+template <class Scalar>
 class OmpSolver final : public Solver {
  public:
   OmpSolver(const Scene& scene, const Settings& settings)
       : Solver(scene, settings),
         threads_(settings.threads > 0 ? settings.threads : omp_get_max_threads()),
         simd_(choose_simd(settings.simd)),
-        passes_(passes_for(simd_)),
-        p_(to_single(params())),
+        passes_(passes_for<Scalar>(simd_)),
+        p_(in_precision<Scalar>(params())),
         terms_{settings.pressure, scene.fluid.viscosity_m2_s.has_value(), !scene.rains.empty(),
                scene.solver.xsph > 0.0},
         barrier_(threads_),
         sort_(p_.cell_count, threads_),
         lists_(static_cast<std::size_t>(threads_)),
         solve_(passes_, scene.solver, threads_) {
-    if (settings.precision != Precision::single_precision)
-      throw InputError("precision double is not in this version of the omp backend; use --backend reference");
-    for (const auto& box : boxes()) boxes_.push_back(to_single(box));
+    for (const auto& box : boxes()) boxes_.push_back(in_precision<Scalar>(box));
     resize(0);
   }
 
@@ -63,6 +65,8 @@ class OmpSolver final : public Solver {
   }
 
  private:
+  using Vector = Eigen::Matrix<Scalar, 3, 1>;
+
   void do_load(const Particles& particles) override {
     count_ = 0;
     lost_ = 0;
@@ -73,9 +77,9 @@ class OmpSolver final : public Solver {
     const std::size_t first = count_;
     resize(count_ + particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
-      const Eigen::Vector3f x = particles.positions[i].cast<float>(), v = particles.velocities[i].cast<float>();
-      const auto pressure = static_cast<float>(particles.pressures[i]);
-      state_[first + i] = {x.x(), x.y(), x.z(), pressure, v.x(), v.y(), v.z(), 0.0f};
+      const Vector x = particles.positions[i].cast<Scalar>(), v = particles.velocities[i].cast<Scalar>();
+      const auto pressure = static_cast<Scalar>(particles.pressures[i]);
+      state_[first + i] = {x.x(), x.y(), x.z(), pressure, v.x(), v.y(), v.z(), 0};
       ids_[ids_now_][first + i] = particles.ids[i];
       lost_ += is_lost(x.x());
     }
@@ -83,8 +87,8 @@ class OmpSolver final : public Solver {
 
   /// Room for `count` particles and the padding behind them, which lies far away from everything.
   void resize(std::size_t count) {
-    constexpr float k_far = SQUALL_LOST_COORDINATE;
-    const Record far{k_far, k_far, k_far, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    constexpr Scalar k_far = SQUALL_LOST_COORDINATE;
+    const Record<Scalar> far{k_far, k_far, k_far, 0, 0, 0, 0, 0};
     const std::size_t padded = count + k_padding;
     state_.resize(padded, far, threads_);
     sorted_.resize(padded, far, threads_);
@@ -95,16 +99,16 @@ class OmpSolver final : public Solver {
     }
     for (auto& ids : ids_) ids.resize(padded, 0, threads_);
     keys_.resize(padded, 0, threads_);
-    density_.resize(padded, 1.0f, threads_);
-    if (terms_.pressure == Pressure::mueller) pressure_.resize(padded, 0.0f, threads_);
-    if (terms_.drag) isolation_.resize(padded, 0.0f, threads_);
+    density_.resize(padded, Scalar(1), threads_);
+    if (terms_.pressure == Pressure::mueller) pressure_.resize(padded, Scalar(0), threads_);
+    if (terms_.drag) isolation_.resize(padded, Scalar(0), threads_);
     if (terms_.pressure == Pressure::dfsph) solve_.resize(padded, threads_);
     count_ = count;
   }
 
-  void do_advance(const FramePlan& plan, Delivery, FrameReport& report) override {
-    std::vector<Substep<float>> substeps;
-    for (const auto& substep : plan.substeps) substeps.push_back(to_single(substep));
+  void do_advance(const FramePlan& plan, Delivery delivery, FrameReport& report) override {
+    std::vector<Substep<Scalar>> substeps;
+    for (const auto& substep : plan.substeps) substeps.push_back(in_precision<Scalar>(substep));
     results_.assign(static_cast<std::size_t>(threads_), {});
     PhaseClock clock(settings(), frame_start(), substeps.size(), report);
     // More threads than the work is worth would only wait for each other. The bits do not depend on how many there are.
@@ -121,12 +125,13 @@ class OmpSolver final : public Solver {
       ids_now_ = (ids_now_ + done) % 2;
     }
     largest_team_ = std::max(largest_team_, barrier_.threads());
+    if (!k_delivers_in_place && delivery == Delivery::positions) round_positions(report);
     fill_report(report);
   }
 
   /// A frame as one thread of the team sees it. Returns how many sub-steps were done: all of them, unless memory ran
   /// out.
-  std::size_t advance_thread(int thread, const std::vector<Substep<float>>& substeps, PhaseClock& clock,
+  std::size_t advance_thread(int thread, const std::vector<Substep<Scalar>>& substeps, PhaseClock& clock,
                              FrameReport& report) {
     const auto count = static_cast<int>(count_);
     Range chunk = share_of(count, thread, barrier_.threads());
@@ -134,7 +139,7 @@ class OmpSolver final : public Solver {
       const auto& ids = ids_[(ids_now_ + s) % 2];
       auto& sorted_ids = ids_[(ids_now_ + s + 1) % 2];
       if (substeps[s].released_count > 0) release(thread, substeps[s], ids);
-      const UnsortedParticles from{state_.data(), ids.data(), keys_.data()};
+      const UnsortedParticles<Scalar> from{state_.data(), ids.data(), keys_.data()};
       if (s == 0) {
         sort_.clear_counts(thread);
         sort_.count(thread, chunk, p_, held_in(substeps[s]), from);
@@ -159,11 +164,11 @@ class OmpSolver final : public Solver {
     return substeps.size();
   }
 
-  std::span<const HeldGroup> held_in(const Substep<float>& substep) const {
+  std::span<const HeldGroup> held_in(const Substep<Scalar>& substep) const {
     return {held_groups().data(), static_cast<std::size_t>(substep.held_count)};
   }
 
-  PassContext context(const Substep<float>& substep) {
+  PassContext<Scalar> context(const Substep<Scalar>& substep) {
     return {&p_,
             &substep,
             boxes_.data(),
@@ -182,8 +187,8 @@ class OmpSolver final : public Solver {
   }
 
   /// Densities and pressures; of dfsph the whole solve. False, for every thread, if one is out of memory.
-  bool find_pressures(int thread, const Substep<float>& substep, Range rows, PhaseClock& clock, FrameReport& report) {
-    NeighbourList& list = lists_[static_cast<std::size_t>(thread)];
+  bool find_pressures(int thread, const Substep<Scalar>& substep, Range rows, PhaseClock& clock, FrameReport& report) {
+    NeighbourList<Scalar>& list = lists_[static_cast<std::size_t>(thread)];
     if (terms_.pressure == Pressure::dfsph)
       return solve_.make_incompressible(barrier_, thread, context(substep), rows, list, clock, report);
     passes_.density(context(substep), rows.begin, rows.end, list);
@@ -194,9 +199,9 @@ class OmpSolver final : public Solver {
 
   /// Forces and all that follows. Returns the thread's chunk of the next sort: its rows, and for the last thread also
   /// what is held or lost.
-  Range move_particles(int thread, const Substep<float>& substep, Range rows) {
+  Range move_particles(int thread, const Substep<Scalar>& substep, Range rows) {
     const auto t = static_cast<std::size_t>(thread);
-    const PassContext all = context(substep);
+    const PassContext<Scalar> all = context(substep);
     int* key_counts = sort_.clear_counts(thread);
     if (substep.statistics != 0) passes_.statistics(all, rows.begin, rows.end, lists_[t], results_[t]);
     if (terms_.pressure == Pressure::dfsph)
@@ -213,8 +218,8 @@ class OmpSolver final : public Solver {
   }
 
   /// Particles freed now start with half a kick, like everything at the start: the other half is taken back.
-  void release(int thread, const Substep<float>& substep, const TeamArray<std::uint32_t>& ids) {
-    const float half = substep.previous_dt * p_.one_half;
+  void release(int thread, const Substep<Scalar>& substep, const TeamArray<std::uint32_t>& ids) {
+    const Scalar half = substep.previous_dt * p_.one_half;
     const Range share = share_of(static_cast<int>(count_), thread, barrier_.threads());
     for (int g = substep.held_count; g < substep.held_count + substep.released_count; ++g) {
       const HeldGroup& group = held_groups()[static_cast<std::size_t>(g)];
@@ -235,13 +240,14 @@ class OmpSolver final : public Solver {
   }
 
   bool any_out_of_memory() const {
-    return std::any_of(lists_.begin(), lists_.end(), [](const NeighbourList& list) { return list.out_of_memory; });
+    return std::any_of(lists_.begin(), lists_.end(),
+                       [](const NeighbourList<Scalar>& list) { return list.out_of_memory; });
   }
 
   void fill_report(FrameReport& report) {
     if (any_out_of_memory())
       throw DeviceError("out of memory for neighbour lists; use fewer particles or a smaller support_ratio");
-    PassResult total;
+    PassResult<Scalar> total;
     for (const auto& result : results_) {
       total.max_speed2 = std::max(total.max_speed2, result.max_speed2);
       total.max_acceleration2 = std::max(total.max_acceleration2, result.max_acceleration2);
@@ -263,46 +269,74 @@ class OmpSolver final : public Solver {
     report.neighbours_mean = active > 0 ? static_cast<double>(total.neighbours) / active : 0.0;
   }
 
-  PositionsView do_positions() override { return {state_.data(), PositionFormat::float32, sizeof(Record), count_}; }
+  /// Positions are delivered in single precision: where they lie, or as round_positions() left them.
+  PositionsView do_positions() override {
+    if constexpr (k_delivers_in_place)
+      return {state_.data(), PositionFormat::float32, sizeof(Record<Scalar>), count_};
+    else
+      return {rounded_.data(), PositionFormat::float32, sizeof(Position), count_};
+  }
+
+  void round_positions(FrameReport& report) {
+    const auto start = std::chrono::steady_clock::now();
+    rounded_.resize(count_, {}, threads_);
+    const auto count = static_cast<std::int64_t>(count_);
+#pragma omp parallel for schedule(static) num_threads(barrier_.threads())
+    for (std::int64_t i = 0; i < count; ++i) {
+      const Record<Scalar>& r = state_[static_cast<std::size_t>(i)];
+      rounded_[static_cast<std::size_t>(i)] = {static_cast<float>(r.x), static_cast<float>(r.y),
+                                               static_cast<float>(r.z)};
+    }
+    report.readback_copied_bytes = count_ * sizeof(Position);
+    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+    report.readback_ms = taken.count();
+  }
 
   Particles do_download() override {
     Particles particles;
     particles.reserve(count_);
     for (std::size_t i = 0; i < count_; ++i) {
-      const Record& r = state_[i];
-      particles.add(ids_[ids_now_][i], Eigen::Vector3f(r.x, r.y, r.z).cast<double>(),
-                    Eigen::Vector3f(r.vx, r.vy, r.vz).cast<double>(),
+      const Record<Scalar>& r = state_[i];
+      particles.add(ids_[ids_now_][i], Vector(r.x, r.y, r.z).template cast<double>(),
+                    Vector(r.vx, r.vy, r.vz).template cast<double>(),
                     terms_.pressure == Pressure::dfsph ? static_cast<double>(r.pressure_term) : 0.0);
     }
     return particles;
   }
 
+  static constexpr bool k_delivers_in_place = std::is_same_v<Scalar, float>;
+  struct Position {
+    float x, y, z;
+  };
+
   int threads_;           ///< asked for
   int largest_team_ = 0;  ///< used so far
   Simd simd_;
-  const Passes& passes_;
-  Params<float> p_;
+  const Passes<Scalar>& passes_;
+  Params<Scalar> p_;
   PassTerms terms_;
-  std::vector<Box<float>> boxes_;
+  std::vector<Box<Scalar>> boxes_;
   TeamBarrier barrier_;
-  CountingSort sort_;
-  std::vector<NeighbourList> lists_;  ///< per thread
-  PressureSolve solve_;               ///< of dfsph
-  std::vector<PassResult> results_;   ///< per thread
+  CountingSort<Scalar> sort_;
+  std::vector<NeighbourList<Scalar>> lists_;  ///< per thread
+  PressureSolve<Scalar> solve_;               ///< of dfsph
+  std::vector<PassResult<Scalar>> results_;   ///< per thread
   std::size_t count_ = 0;
   std::int64_t lost_ = 0;
-  TeamArray<Record> state_, sorted_;  ///< between sub-steps; within one, in canonical order
-  TeamArray<std::uint32_t> ids_[2];   ///< take turns: the sort reads one and writes the other
-  std::size_t ids_now_ = 0;           ///< which of the two belongs to state_
-  TeamArray<float> x_, y_, z_;        ///< coordinates of sorted_
-  TeamArray<int> keys_;               ///< of state_
-  TeamArray<float> density_, pressure_, isolation_;
+  TeamArray<Record<Scalar>> state_, sorted_;  ///< between sub-steps; within one, in canonical order
+  TeamArray<std::uint32_t> ids_[2];           ///< take turns: the sort reads one and writes the other
+  std::size_t ids_now_ = 0;                   ///< which of the two belongs to state_
+  TeamArray<Scalar> x_, y_, z_;               ///< coordinates of sorted_
+  TeamArray<Position> rounded_;               ///< what is delivered of state_, if that is in double precision
+  TeamArray<int> keys_;                       ///< of state_
+  TeamArray<Scalar> density_, pressure_, isolation_;
 };
 
 }  // namespace
 
 std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings) {
-  return std::make_unique<OmpSolver>(scene, settings);
+  if (settings.precision == Precision::single_precision) return std::make_unique<OmpSolver<float>>(scene, settings);
+  return std::make_unique<OmpSolver<double>>(scene, settings);
 }
 
 std::vector<DeviceInfo> devices() {

@@ -1,6 +1,7 @@
 #pragma once
 
-// Included once per instruction set, after its Pack: the passes over blocks of particles, a particle per SIMD lane.
+// Included once per instruction set and precision, after its Pack: the passes over blocks of particles, a particle per
+// SIMD lane.
 
 #include "backend_omp/density-inl.h"
 #include "backend_omp/forces-inl.h"
@@ -15,15 +16,16 @@ namespace {
 template <class Pack>
 struct BlockPasses {
   template <Pressure pressure>
-  static void density_rows(const PassContext& context, int first_row, int end_row, NeighbourList& list) {
+  static void density_rows(const PassContext<Scalar>& context, int first_row, int end_row,
+                           NeighbourList<Scalar>& list) {
     list.used = 0;
     for_each_block<Pack>(context, first_row, end_row,
                          [&](const Block& block) { density_of_block<Pack, pressure>(context, block, list); });
   }
 
   template <Pressure pressure, bool viscous>
-  static void force_rows(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
-                         PassResult& result, int* key_counts) {
+  static void force_rows(const PassContext<Scalar>& context, int first_row, int end_row,
+                         const NeighbourList<Scalar>& list, PassResult<Scalar>& result, int* key_counts) {
     Maxima<Pack> maxima;
     const int* neighbours = list.data;
     for_each_block<Pack>(context, first_row, end_row, [&](const Block& block) {
@@ -41,18 +43,18 @@ struct BlockPasses {
   }
 
   template <Pressure pressure>
-  static void statistics_rows(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
-                              PassResult& result) {
+  static void statistics_rows(const PassContext<Scalar>& context, int first_row, int end_row,
+                              const NeighbourList<Scalar>& list, PassResult<Scalar>& result) {
     const int* neighbours = list.data;
     for_each_block<Pack>(context, first_row, end_row, [&](const Block& block) {
       const int count = *neighbours++;
       for (int i = block.begin; i < block.end; ++i) {
-        const Record& a = context.sorted[i];
+        const Record<Scalar>& a = context.sorted[i];
         std::int64_t within = -1;  // self is on the list
         for (int k = 0; k < count; ++k)
           within += is_neighbour<pressure>(*context.params, a, context.sorted[neighbours[k]]);
         result.neighbours += within;
-        const float error = max0(context.density[i] - 1.0f);
+        const Scalar error = max0(context.density[i] - 1.0f);
         result.density_error_sum += static_cast<double>(error);
         if (error > result.density_error_max) result.density_error_max = error;
       }
@@ -61,23 +63,23 @@ struct BlockPasses {
   }
 
   template <Pressure pressure>
-  static int is_neighbour(const Params<float>& p, const Record& a, const Record& b) {
-    const float dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
+  static int is_neighbour(const Params<Scalar>& p, const Record<Scalar>& a, const Record<Scalar>& b) {
+    const Scalar dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
     if constexpr (pressure != Pressure::mueller)
       return remaining_support(squall::sqrt(squared_length(dx, dy, dz)), p.inverse_support) > 0.0f ? 1 : 0;
     else
       return squared_support_left(dx, dy, dz, p.support_squared) > 0.0f ? 1 : 0;
   }
 
-  static void density(const PassContext& context, int first_row, int end_row, NeighbourList& list) {
+  static void density(const PassContext<Scalar>& context, int first_row, int end_row, NeighbourList<Scalar>& list) {
     if (context.terms.pressure == Pressure::wcsph)
       density_rows<Pressure::wcsph>(context, first_row, end_row, list);
     else
       density_rows<Pressure::mueller>(context, first_row, end_row, list);
   }
 
-  static void forces(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
-                     PassResult& result, int* key_counts) {
+  static void forces(const PassContext<Scalar>& context, int first_row, int end_row, const NeighbourList<Scalar>& list,
+                     PassResult<Scalar>& result, int* key_counts) {
     const bool viscous = context.terms.viscosity;
     const auto rows = context.terms.pressure == Pressure::wcsph
                           ? (viscous ? force_rows<Pressure::wcsph, true> : force_rows<Pressure::wcsph, false>)
@@ -85,15 +87,16 @@ struct BlockPasses {
     rows(context, first_row, end_row, list, result, key_counts);
   }
 
-  static void statistics(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
-                         PassResult& result) {
+  static void statistics(const PassContext<Scalar>& context, int first_row, int end_row,
+                         const NeighbourList<Scalar>& list, PassResult<Scalar>& result) {
     if (context.terms.pressure != Pressure::mueller)
       statistics_rows<Pressure::wcsph>(context, first_row, end_row, list, result);
     else
       statistics_rows<Pressure::mueller>(context, first_row, end_row, list, result);
   }
 
-  static void prepare(const PassContext& context, int first_row, int end_row, NeighbourList& list, SolveSums& sums) {
+  static void prepare(const PassContext<Scalar>& context, int first_row, int end_row, NeighbourList<Scalar>& list,
+                      SolveSums& sums) {
     list.used = list.weights.used = 0;
     for_each_block<Pack>(context, first_row, end_row,
                          [&](const Block& block) { prepare_block<Pack>(context, block, list, sums); });
@@ -101,10 +104,10 @@ struct BlockPasses {
 
   /// Calls visit(block, list, weights, count) for every block and its neighbours.
   template <class Visit>
-  static void for_each_list(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
-                            Visit visit) {
+  static void for_each_list(const PassContext<Scalar>& context, int first_row, int end_row,
+                            const NeighbourList<Scalar>& list, Visit visit) {
     const int* neighbours = list.data;
-    const float* weights = list.weights.data;
+    const Scalar* weights = list.weights.data;
     for_each_block<Pack>(context, first_row, end_row, [&](const Block& block) {
       const int count = *neighbours++;
       visit(block, neighbours, weights, count);
@@ -113,10 +116,10 @@ struct BlockPasses {
     });
   }
 
-  static std::int64_t rate(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
-                           float momentum) {
+  static std::int64_t rate(const PassContext<Scalar>& context, int first_row, int end_row,
+                           const NeighbourList<Scalar>& list, Scalar momentum) {
     std::int64_t sum = 0;
-    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const float* w, int count) {
+    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const Scalar* w, int count) {
       const Lanes<Pack> lanes = own_lanes<Pack>(context.sorted, block);
       sum +=
           iterate_block<Pack>(context, block, lanes, receding_sum<Pack>(context.sorted, lanes, j, w, count), momentum);
@@ -124,37 +127,39 @@ struct BlockPasses {
     return sum;
   }
 
-  static void push(const PassContext& context, int first_row, int end_row, const NeighbourList& list) {
-    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const float* w, int count) {
+  static void push(const PassContext<Scalar>& context, int first_row, int end_row, const NeighbourList<Scalar>& list) {
+    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const Scalar* w, int count) {
       push_block<Pack>(context, block, j, w, count);
     });
   }
 
   template <bool viscous, bool smoothing>
-  static void predict_rows(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
-                           float correction) {
-    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const float* w, int count) {
+  static void predict_rows(const PassContext<Scalar>& context, int first_row, int end_row,
+                           const NeighbourList<Scalar>& list, Scalar correction) {
+    for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const Scalar* w, int count) {
       predict_block<Pack, viscous, smoothing>(context, block, j, w, count, correction);
     });
   }
 
-  static void predict(const PassContext& context, int first_row, int end_row, const NeighbourList& list,
-                      float correction) {
+  static void predict(const PassContext<Scalar>& context, int first_row, int end_row, const NeighbourList<Scalar>& list,
+                      Scalar correction) {
     const PassTerms& terms = context.terms;
     const auto rows = terms.smoothing ? (terms.viscosity ? predict_rows<true, true> : predict_rows<false, true>)
                                       : (terms.viscosity ? predict_rows<true, false> : predict_rows<false, false>);
     rows(context, first_row, end_row, list, correction);
   }
 
-  static void drift(const PassContext& context, int first_row, int end_row, PassResult& result, int* key_counts) {
+  static void drift(const PassContext<Scalar>& context, int first_row, int end_row, PassResult<Scalar>& result,
+                    int* key_counts) {
     Maxima<Pack> maxima;
     for_each_block<Pack>(context, first_row, end_row,
                          [&](const Block& block) { drift_block<Pack>(context, block, result, maxima, key_counts); });
     maxima.report(result);
   }
 
-  static const Passes& table() {
-    static constexpr Passes k_table{Pack::k_lanes, density, forces, statistics, prepare, rate, push, predict, drift};
+  static const Passes<Scalar>& table() {
+    static constexpr Passes<Scalar> k_table{Pack::k_lanes, density, forces,  statistics, prepare,
+                                            rate,          push,    predict, drift};
     return k_table;
   }
 };

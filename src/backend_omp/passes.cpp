@@ -19,13 +19,17 @@ std::vector<Simd> available_simd() {
   return available;
 }
 
-const Passes& passes_for(Simd simd) {
+template <class Scalar>
+const Passes<Scalar>& passes_for(Simd simd) {
 #ifdef SQUALL_HAS_X86_SIMD
-  if (simd == Simd::avx512) return avx512_passes();
-  if (simd == Simd::avx2) return avx2_passes();
+  if (simd == Simd::avx512) return avx512_passes<Scalar>();
+  if (simd == Simd::avx2) return avx2_passes<Scalar>();
 #endif
   (void)simd;
-  return scalar_passes();
+  return scalar_passes<Scalar>();
 }
+
+template const Passes<float>& passes_for(Simd simd);
+template const Passes<double>& passes_for(Simd simd);
 
 }  // namespace squall::openmp

@@ -1,4 +1,4 @@
-#include "backend_omp/highway_pack.h"
+#include "backend_omp/highway_single.h"
 //
 #include "backend_omp/passes-inl.h"
 
@@ -8,6 +8,9 @@
 
 namespace squall::openmp {
 
-const Passes& avx512_passes() { return BlockPasses<Pack>::table(); }
+template <>
+const Passes<float>& avx512_passes() {
+  return BlockPasses<Pack>::table();
+}
 
 }  // namespace squall::openmp

@@ -1,9 +1,12 @@
-#include "backend_omp/scalar_pack.h"
+#include "backend_omp/scalar_single.h"
 //
 #include "backend_omp/passes-inl.h"
 
 namespace squall::openmp {
 
-const Passes& scalar_passes() { return BlockPasses<Pack>::table(); }
+template <>
+const Passes<float>& scalar_passes() {
+  return BlockPasses<Pack>::table();
+}
 
 }  // namespace squall::openmp

@@ -1,6 +1,7 @@
 #pragma once
 
-// Included once per instruction set, after its Pack: what dfsph does between its two solves, and after them.
+// Included once per instruction set and precision, after its Pack: what dfsph does between its two solves, and after
+// them.
 
 #include "backend_omp/integrate-inl.h"
 #include "backend_omp/iteration-inl.h"
@@ -16,14 +17,14 @@ struct Prediction {
 
 /// Impulses to start from, viscosity and smoothing, as far as neighbours make them.
 template <class Pack, bool viscous, bool smoothing>
-Prediction<Pack> predict_from_neighbours(const PassContext& context, const Lanes<Pack>& a, const int* list,
-                                         const float* weights, int count) {
-  const Params<float>& p = *context.params;
+Prediction<Pack> predict_from_neighbours(const PassContext<Scalar>& context, const Lanes<Pack>& a, const int* list,
+                                         const Scalar* weights, int count) {
+  const Params<Scalar>& p = *context.params;
   const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz(), impulse = a.volume_term();
   const Pack viscous_scale(p.viscosity_scale * context.substep->kick), softening(p.softening);
   Prediction<Pack> result;
   for (int k = 0; k < count; ++k, weights += Pack::k_lanes) {
-    const Record& b = context.sorted[list[k]];
+    const Record<Scalar>& b = context.sorted[list[k]];
     const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
     const Pack r2 = squared_length(dx, dy, dz);
     Pack impulses = impulse + Pack(b.volume_term);
@@ -43,17 +44,17 @@ Prediction<Pack> predict_from_neighbours(const PassContext& context, const Lanes
 }
 
 template <class Pack, bool viscous, bool smoothing>
-void predict_block(const PassContext& context, const Block& block, const int* list, const float* weights, int count,
-                   float correction) {
-  const Params<float>& p = *context.params;
-  const Substep<float>& substep = *context.substep;
-  const SolveArrays& arrays = context.solve;
+void predict_block(const PassContext<Scalar>& context, const Block& block, const int* list, const Scalar* weights,
+                   int count, Scalar correction) {
+  const Params<Scalar>& p = *context.params;
+  const Substep<Scalar>& substep = *context.substep;
+  const SolveArrays<Scalar>& arrays = context.solve;
   const Lanes<Pack> lanes = own_lanes<Pack>(context.sorted, block);
   const Prediction<Pack> sums = predict_from_neighbours<Pack, viscous, smoothing>(context, lanes, list, weights, count);
   const Pack position[3] = {lanes.x(), lanes.y(), lanes.z()}, impulse = lanes.volume_term();
   const Pack pushed[3] = {sums.pushed.x, sums.pushed.y, sums.pushed.z};
   const Pack smoothed[3] = {sums.smoothed.x, sums.smoothed.y, sums.smoothed.z};
-  const float* openings[3] = {arrays.opening_x, arrays.opening_y, arrays.opening_z};
+  const Scalar* openings[3] = {arrays.opening_x, arrays.opening_y, arrays.opening_z};
   Pack v[3] = {lanes.vx(), lanes.vy(), lanes.vz()};
   // As add_external_acceleration of the reference: gravity is added to 0, which changes nothing but the sign of zero.
   Pack a[3] = {Pack(0.0f) + Pack(substep.acceleration_x), Pack(0.0f) + Pack(substep.acceleration_y),
@@ -71,12 +72,12 @@ void predict_block(const PassContext& context, const Block& block, const int* li
 }
 
 template <class Pack>
-void drift_block(const PassContext& context, const Block& block, PassResult& result, Maxima<Pack>& maxima,
-                 int* key_counts) {
-  const Substep<float>& substep = *context.substep;
-  const SolveArrays& arrays = context.solve;
+void drift_block(const PassContext<Scalar>& context, const Block& block, PassResult<Scalar>& result,
+                 Maxima<Pack>& maxima, int* key_counts) {
+  const Substep<Scalar>& substep = *context.substep;
+  const SolveArrays<Scalar>& arrays = context.solve;
   const Lanes<Pack> lanes = own_lanes<Pack>(context.next, block);
-  const auto load = [&](const float* values) { return Pack::load(values + block.begin); };
+  const auto load = [&](const Scalar* values) { return Pack::load(values + block.begin); };
   const Pack start_v[3] = {load(arrays.start_vx), load(arrays.start_vy), load(arrays.start_vz)};
   const Pack from[3] = {lanes.x(), lanes.y(), lanes.z()};
   Pack v[3] = {lanes.vx(), lanes.vy(), lanes.vz()}, to[3], a[3];

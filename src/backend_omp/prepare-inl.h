@@ -1,7 +1,7 @@
 #pragma once
 
-// Included once per instruction set, after its Pack: how dfsph finds neighbours, their weights, and what the solves
-// need of each particle.
+// Included once per instruction set and precision, after its Pack: how dfsph finds neighbours, their weights, and what
+// the solves need of each particle.
 
 #include "backend_omp/iteration-inl.h"
 #include "backend_omp/neighbours-inl.h"
@@ -13,14 +13,14 @@ namespace {
 
 /// Walls near a block, with their cores: what dfsph takes for density and force.
 template <class Pack>
-Opening<Pack> opening_with_cores(const PassContext& context, Mask valid, Pack x, Pack y, Pack z) {
-  const Params<float>& p = *context.params;
+Opening<Pack> opening_with_cores(const PassContext<Scalar>& context, Mask valid, Pack x, Pack y, Pack z) {
+  const Params<Scalar>& p = *context.params;
   Opening<Pack> result = opening(context, SQUALL_CUBIC, true, valid, x, y, z);
   if (is_near_container(context, valid, x, y, z))
     result.open =
         close_container_cores(&p, x, y, z, result.open, &result.gradient_x, &result.gradient_y, &result.gradient_z);
   for (int b = 0; b < context.substep->box_count; ++b) {
-    const Box<float>& box = context.boxes[b];
+    const Box<Scalar>& box = context.boxes[b];
     if (!is_near_box(context, valid, box.solid_min, box.solid_max, x, y, z)) continue;
     result.open =
         close_box_core(&p, &box, x, y, z, result.open, &result.gradient_x, &result.gradient_y, &result.gradient_z);
@@ -39,19 +39,19 @@ struct PreparedSums {
 
 /// Weights of a list's pairs, from which it takes what is near no lane of the block, and sums of what comes with them.
 template <class Pack>
-SQUALL_NOINLINE int find_weights(const PassContext& context, const Pack* position, int* list, float* weights, int count,
-                                 PreparedSums<Pack>& sums) {
-  const Params<float>& p = *context.params;
+SQUALL_NOINLINE int find_weights(const PassContext<Scalar>& context, const Pack* position, int* list, Scalar* weights,
+                                 int count, PreparedSums<Pack>& sums) {
+  const Params<Scalar>& p = *context.params;
   const Pack inverse_support(p.inverse_support), inverse_half_support(p.inverse_half_support);
   const Pack tiny(p.tiny), reach2(p.list_squared);
-  const Record* records = context.sorted;
+  const Record<Scalar>* records = context.sorted;
   const Pack x = position[0], y = position[1], z = position[2];
   Pack kernel[2] = {Pack(0.0f), Pack(0.0f)};  // by the parity of the sorted index
   Pack squares(0.0f);
   std::ptrdiff_t kept = 0;
   for (int k = 0; k < count; ++k) {
     const int j = list[k];
-    const Record& b = records[j];
+    const Record<Scalar>& b = records[j];
     const Pack r2 = squared_length(x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
     const Pack r = sqrt(r2);
     const Pack u = remaining_support(r, inverse_support);
@@ -70,12 +70,12 @@ SQUALL_NOINLINE int find_weights(const PassContext& context, const Pack* positio
 
 /// Sums over a list with its weights: of weight x_ij, and receding_sum.
 template <class Pack>
-SQUALL_NOINLINE void sum_slopes(const Record* records, const Lanes<Pack>& a, const int* list, const float* weights,
-                                int count, PreparedSums<Pack>& sums) {
+SQUALL_NOINLINE void sum_slopes(const Record<Scalar>* records, const Lanes<Pack>& a, const int* list,
+                                const Scalar* weights, int count, PreparedSums<Pack>& sums) {
   const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz();
   Vector<Pack> gradient;
   Pack receding(0.0f);
-  for_each_pair<Pack, Weights::near>(records, list, weights, count, [&](const Record& b, Pack weight) {
+  for_each_pair<Pack, Weights::near>(records, list, weights, count, [&](const Record<Scalar>& b, Pack weight) {
     const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
     gradient.add_scaled(weight, dx, dy, dz);
     receding = fma(weight, dot_product(dx, dy, dz, vx - Pack(b.vx), vy - Pack(b.vy), vz - Pack(b.vz)), receding);
@@ -86,10 +86,10 @@ SQUALL_NOINLINE void sum_slopes(const Record* records, const Lanes<Pack>& a, con
 
 /// Density, response to pressure, walls. Returns the density.
 template <class Pack>
-Pack note_prepared(const PassContext& context, const Block& block, const Pack* position,
+Pack note_prepared(const PassContext<Scalar>& context, const Block& block, const Pack* position,
                    const PreparedSums<Pack>& sums) {
-  const Params<float>& p = *context.params;
-  const SolveArrays& arrays = context.solve;
+  const Params<Scalar>& p = *context.params;
+  const SolveArrays<Scalar>& arrays = context.solve;
   const Opening<Pack> walls =
       opening_with_cores(context, first_lanes(block.count()), position[0], position[1], position[2]);
   const Pack sum = sums.kernel;
@@ -114,10 +114,10 @@ Pack note_prepared(const PassContext& context, const Block& block, const Pack* p
 /// Where the solves of a block begin: the divergence solve from no impulse, the density solve from that of the last
 /// pressure, which neighbours will want to know.
 template <class Pack>
-void note_start(const PassContext& context, const Block& block, const Lanes<Pack>& lanes, Pack density) {
-  const Params<float>& p = *context.params;
-  const Substep<float>& substep = *context.substep;
-  const SolveArrays& arrays = context.solve;
+void note_start(const PassContext<Scalar>& context, const Block& block, const Lanes<Pack>& lanes, Pack density) {
+  const Params<Scalar>& p = *context.params;
+  const Substep<Scalar>& substep = *context.substep;
+  const SolveArrays<Scalar>& arrays = context.solve;
   store_lanes(arrays.room, block, divergence_room(density, Pack(p.free_density)));
   store_lanes(arrays.impulse, block, Pack(0.0f));
   store_lanes(arrays.projected, block, Pack(0.0f));
@@ -125,13 +125,14 @@ void note_start(const PassContext& context, const Block& block, const Lanes<Pack
   store_lanes(arrays.start_vy, block, lanes.vy());
   store_lanes(arrays.start_vz, block, lanes.vz());
   const Pack largest(p.largest_warm_impulse / substep.dt);
-  alignas(64) float warm[Pack::k_lanes];
+  alignas(64) Scalar warm[Pack::k_lanes];
   warm_impulse(lanes.pressure_term(), Pack(substep.warm_kick), largest).store(warm);
   for (int lane = 0; lane < block.count(); ++lane) context.sorted[block.begin + lane].volume_term = warm[lane];
 }
 
 template <class Pack>
-void prepare_block(const PassContext& context, const Block& block, NeighbourList& neighbours, SolveSums& totals) {
+void prepare_block(const PassContext<Scalar>& context, const Block& block, NeighbourList<Scalar>& neighbours,
+                   SolveSums& totals) {
   Range ranges[9];
   int total = 0;
   const int range_count = candidate_ranges(context, block, ranges, total);
@@ -141,7 +142,7 @@ void prepare_block(const PassContext& context, const Block& block, NeighbourList
                             Pack::load(context.z + block.begin)};
   int count = find_neighbours(context, ranges, range_count, Bounds<Pack>(block, position), list);
   if (!neighbours.reserve_weights(static_cast<std::size_t>(count) * Pack::k_lanes)) return;
-  float* weights = neighbours.weights.data + neighbours.weights.used;
+  Scalar* weights = neighbours.weights.data + neighbours.weights.used;
 
   const Lanes<Pack> lanes = own_lanes<Pack>(context.sorted, block);
   PreparedSums<Pack> sums;

@@ -7,20 +7,24 @@
 
 namespace squall::openmp {
 
-PressureSolve::PressureSolve(const Passes& passes, const Scene::Solver& settings, int threads)
+template <class Scalar>
+PressureSolve<Scalar>::PressureSolve(const Passes<Scalar>& passes, const Scene::Solver& settings, int threads)
     : passes_(passes), settings_(settings), shares_(std::make_unique<Share[]>(static_cast<std::size_t>(threads))) {}
 
-void PressureSolve::resize(std::size_t count, int threads) {
-  for (auto& values : values_) values.resize(count, 0.0f, threads);
+template <class Scalar>
+void PressureSolve<Scalar>::resize(std::size_t count, int threads) {
+  for (auto& values : values_) values.resize(count, Scalar(0), threads);
 }
 
-SolveArrays PressureSolve::arrays() {
+template <class Scalar>
+SolveArrays<Scalar> PressureSolve<Scalar>::arrays() {
   return {values_[0].data(), values_[1].data(), values_[2].data(), values_[3].data(),
           values_[4].data(), values_[5].data(), values_[6].data(), values_[7].data(),
           values_[8].data(), values_[9].data(), values_[10].data()};
 }
 
-SolveSums PressureSolve::total(int threads) const {
+template <class Scalar>
+SolveSums PressureSolve<Scalar>::total(int threads) const {
   SolveSums sum;
   for (int t = 0; t < threads; ++t) {
     sum.error += shares_[static_cast<std::size_t>(t)].sums.error;
@@ -30,13 +34,15 @@ SolveSums PressureSolve::total(int threads) const {
 }
 
 /// Between two writes of a thread's sum lies the barrier behind a push or behind predict, and all have read it by then.
-PressureSolve::Outcome PressureSolve::solve(const Team& team, const PassContext& context, Limits limits, int active,
-                                            const SolveSums* first) {
+template <class Scalar>
+typename PressureSolve<Scalar>::Outcome PressureSolve<Scalar>::solve(const Team& team,
+                                                                     const PassContext<Scalar>& context, Limits limits,
+                                                                     int active, const SolveSums* first) {
   const std::int64_t limit = convergence_limit(limits.tolerance, active);
   const auto [begin, end] = team.rows;
   Momentum momentum;
   for (int iteration = 1;; ++iteration) {
-    const auto reach = momentum.next<float>();
+    const auto reach = momentum.next<Scalar>();
     std::int64_t sum = 0;
     if (iteration == 1 && first != nullptr) {
       sum = first->error;
@@ -53,14 +59,17 @@ PressureSolve::Outcome PressureSolve::solve(const Team& team, const PassContext&
   }
 }
 
-void PressureSolve::note(Outcome outcome, std::int64_t& sum, int& largest, int& unconverged) const {
+template <class Scalar>
+void PressureSolve<Scalar>::note(Outcome outcome, std::int64_t& sum, int& largest, int& unconverged) const {
   sum += outcome.iterations;
   largest = std::max(largest, outcome.iterations);
   unconverged += outcome.converged ? 0 : 1;
 }
 
-bool PressureSolve::make_incompressible(TeamBarrier& barrier, int thread, const PassContext& context, Range rows,
-                                        NeighbourList& list, PhaseClock& clock, FrameReport& report) {
+template <class Scalar>
+bool PressureSolve<Scalar>::make_incompressible(TeamBarrier& barrier, int thread, const PassContext<Scalar>& context,
+                                                Range rows, NeighbourList<Scalar>& list, PhaseClock& clock,
+                                                FrameReport& report) {
   const bool first = thread == 0;
   Share& share = shares_[static_cast<std::size_t>(thread)];
   SolveSums sums;
@@ -78,11 +87,11 @@ bool PressureSolve::make_incompressible(TeamBarrier& barrier, int thread, const 
   const Team team{barrier, thread, rows, list};
   const Outcome divergence = solve(team, context, {settings_.divergence_tolerance, 1}, active, &prepared);
   if (first) clock.finish("divergence solve");
-  const float correction = correction_share(prepared.excess, context.substep->correction, active);
+  const Scalar correction = correction_share(prepared.excess, context.substep->correction, active);
   passes_.predict(context, rows.begin, rows.end, list, correction);
   barrier.wait(thread);
   if (first) clock.finish("predict");
-  PassContext predicted = context;
+  PassContext<Scalar> predicted = context;
   predicted.sorted = context.next;
   const Outcome density = solve(team, predicted, {settings_.density_tolerance, 2}, active, nullptr);
   if (!first) return true;
@@ -93,5 +102,8 @@ bool PressureSolve::make_incompressible(TeamBarrier& barrier, int thread, const 
   note(density, report.density_iterations, report.density_iterations_max, report.unconverged);
   return true;
 }
+
+template class PressureSolve<float>;
+template class PressureSolve<double>;
 
 }  // namespace squall::openmp

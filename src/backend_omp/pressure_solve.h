@@ -15,19 +15,20 @@ namespace squall::openmp {
 
 /// dfsph by a team of threads: all of them call make_incompressible(), each for its rows. Every thread decides from the
 /// same sums, so all go the same way.
+template <class Scalar>
 class PressureSolve {
  public:
-  PressureSolve(const Passes& passes, const Scene::Solver& settings, int threads);
+  PressureSolve(const Passes<Scalar>& passes, const Scene::Solver& settings, int threads);
 
   /// Room for `count` particles.
   void resize(std::size_t count, int threads);
-  SolveArrays arrays();
+  SolveArrays<Scalar> arrays();
 
   /// A sub-step from after the sort up to the drift, which is left to Passes::drift; positions stay. False for all
   /// threads, with nothing changed but `context.sorted`, if one is out of memory for its list. Thread 0 counts
   /// iterations in the report.
-  bool make_incompressible(TeamBarrier& barrier, int thread, const PassContext& context, Range rows,
-                           NeighbourList& list, PhaseClock& clock, FrameReport& report);
+  bool make_incompressible(TeamBarrier& barrier, int thread, const PassContext<Scalar>& context, Range rows,
+                           NeighbourList<Scalar>& list, PhaseClock& clock, FrameReport& report);
 
  private:
   struct alignas(64) Share {
@@ -39,7 +40,7 @@ class PressureSolve {
     TeamBarrier& barrier;
     int thread;
     Range rows;
-    const NeighbourList& list;
+    const NeighbourList<Scalar>& list;
   };
   struct Limits {
     double tolerance;
@@ -51,13 +52,14 @@ class PressureSolve {
   };
 
   SolveSums total(int threads) const;
-  Outcome solve(const Team& team, const PassContext& context, Limits limits, int active, const SolveSums* first);
+  Outcome solve(const Team& team, const PassContext<Scalar>& context, Limits limits, int active,
+                const SolveSums* first);
   void note(Outcome outcome, std::int64_t& sum, int& largest, int& unconverged) const;
 
-  const Passes& passes_;
+  const Passes<Scalar>& passes_;
   Scene::Solver settings_;
   std::unique_ptr<Share[]> shares_;  ///< per thread
-  TeamArray<float> values_[11];      ///< those of SolveArrays
+  TeamArray<Scalar> values_[11];     ///< those of SolveArrays
 };
 
 }  // namespace squall::openmp

@@ -2,7 +2,8 @@
 
 namespace squall::openmp {
 
-Range split_rows(const int* cell_start, const Params<float>& p, int lanes, int part, int parts) {
+template <class Scalar>
+Range split_rows(const int* cell_start, const Params<Scalar>& p, int lanes, int part, int parts) {
   const int rows = p.cells_y * p.cells_z;
   const auto blocks_in = [&](int row) {
     const int particles = cell_start[(row + 1) * p.cells_x] - cell_start[row * p.cells_x];
@@ -24,5 +25,8 @@ Range split_rows(const int* cell_start, const Params<float>& p, int lanes, int p
   }
   return share;
 }
+
+template Range split_rows(const int*, const Params<float>&, int, int, int);
+template Range split_rows(const int*, const Params<double>&, int, int, int);
 
 }  // namespace squall::openmp

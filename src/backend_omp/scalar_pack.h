@@ -4,9 +4,11 @@
 #include "grid.h"
 #include "shared.h"
 
+// Included by scalar_single.h and scalar_double.h, which say what Scalar is.
+
 namespace squall::openmp {
 
-namespace {  // each instruction set has a Pack of its own
+namespace {  // each instruction set and precision has a Pack of its own
 
 /// One lane: what a machine without AVX2 runs. Fused multiply-adds are std::fma, so the bits are those of the others.
 struct Mask {
@@ -21,12 +23,12 @@ inline bool all(Mask m, Mask valid) { return m.lane || !valid.lane; }
 struct Pack {
   static constexpr int k_lanes = 1;
   static constexpr bool k_many_registers = false;
-  float lane;
+  Scalar lane;
 
   Pack() = default;
-  explicit Pack(float value) : lane(value) {}
-  static Pack load(const float* from) { return Pack(*from); }
-  void store(float* to) const { *to = lane; }
+  explicit Pack(Scalar value) : lane(value) {}
+  static Pack load(const Scalar* from) { return Pack(*from); }
+  void store(Scalar* to) const { *to = lane; }
 
   friend Pack operator+(Pack a, Pack b) { return Pack(a.lane + b.lane); }
   friend Pack operator-(Pack a, Pack b) { return Pack(a.lane - b.lane); }
@@ -44,7 +46,7 @@ inline Pack smaller(Pack a, Pack b) { return a.lane < b.lane ? a : b; }
 inline Pack larger(Pack a, Pack b) { return a.lane < b.lane ? b : a; }
 inline Mask first_lanes(int count) { return {count > 0}; }
 inline Pack select(Mask m, Pack yes, Pack no) { return m.lane ? yes : no; }
-inline float first_lane(Pack a) { return a.lane; }
+inline Scalar first_lane(Pack a) { return a.lane; }
 inline Pack smallest_lane(Pack a) { return a; }
 inline Pack largest_lane(Pack a) { return a; }
 
@@ -53,14 +55,12 @@ inline int append_lanes(int* list, int first, Mask m, int limit) {
   return m.lane && limit > 0 ? 1 : 0;
 }
 
-inline void load_fields(const float* records, int first, Pack* fields) {
+inline void load_fields(const Scalar* records, int first, Pack* fields) {
   for (int f = 0; f < 4; ++f) fields[f] = Pack(records[first + f]);
 }
-inline void store_fields(float* records, int first, const Pack* fields) {
+inline void store_fields(Scalar* records, int first, const Pack* fields) {
   for (int f = 0; f < 4; ++f) records[first + f] = fields[f].lane;
 }
-
-inline void broadcast_fields(const float* record, int first, Pack* fields) { load_fields(record, first, fields); }
 
 /// Of the lane, unless it is not valid.
 inline std::int64_t sum_of_terms(Pack error, Mask valid) { return valid.lane ? convergence_term(error.lane) : 0; }
@@ -69,7 +69,7 @@ struct Cells {
   int lane;
   void store(int* to) const { *to = lane; }
 };
-inline Cells cell_coordinates(Pack coordinate, float inverse_edge, int cells) {
+inline Cells cell_coordinates(Pack coordinate, Scalar inverse_edge, int cells) {
   return {cell_coordinate(coordinate.lane, inverse_edge, cells)};
 }
 inline Cells select(Mask m, Cells yes, int no) { return {m.lane ? yes.lane : no}; }

@@ -6,7 +6,7 @@
 
 #include "chunks.h"
 #include "core/errors.h"
-#include "core/frame_plan.h"
+#include "core/precision.h"
 #include "lists.h"
 #include "solve_state.h"
 #include "sort_bins.h"
@@ -16,7 +16,6 @@ namespace squall::opencl {
 namespace {
 
 constexpr std::size_t k_page = 4096;
-constexpr std::size_t k_record_bytes = 32;
 
 // A buffer of no bytes is an error in OpenCL.
 std::size_t at_least_one(std::size_t count) { return std::max<std::size_t>(count, 1); }
@@ -33,7 +32,7 @@ std::vector<Request> chunk_requests(const Layout& layout, const WorkShape& shape
   const std::size_t room = at_least_one(layout.capacity);
   const std::size_t keys = static_cast<std::size_t>(layout.params.cell_count) + 2;
   // A block's load may reach beyond the last particle.
-  const std::size_t places = (room + static_cast<std::size_t>(shape.lanes)) * sizeof(cl_float);
+  const std::size_t places = (room + static_cast<std::size_t>(shape.lanes)) * layout.scalar_bytes();
   return {
       {&Buffers::histograms, {"cell histograms", shape.chunks * keys * sizeof(cl_int)}},
       {&Buffers::totals, {"cell totals", shape.ranges * sizeof(cl_int)}},
@@ -41,8 +40,9 @@ std::vector<Request> chunk_requests(const Layout& layout, const WorkShape& shape
       {&Buffers::x, {"x of particles", places}},
       {&Buffers::y, {"y of particles", places}},
       {&Buffers::z, {"z of particles", places}},
-      {&Buffers::lists, {"neighbour lists", room * k_list_entries * sizeof(cl_int)}},
-      {&Buffers::maxima, {"maxima", shape.chunks * sizeof(cl_float2)}},
+      {&Buffers::lists,
+       {"neighbour lists", room * static_cast<std::size_t>(list_entries(shape.lanes)) * sizeof(cl_int)}},
+      {&Buffers::maxima, {"maxima", shape.chunks * 2 * layout.scalar_bytes()}},
   };
 }
 
@@ -57,20 +57,20 @@ std::vector<Request> bin_requests(const Layout& layout) {
       {&Buffers::cell_start, {"cell starts", bins * sizeof(cl_int)}},
       {&Buffers::arrivals, {"arrivals", room * sizeof(cl_int)}},
       {&Buffers::members, {"bin members", room * sizeof(cl_int)}},
-      {&Buffers::places, {"sorted positions", room * sizeof(cl_float4)}},
-      {&Buffers::maxima, {"maxima", room * sizeof(cl_float2)}},
+      {&Buffers::places, {"sorted positions", room * 4 * layout.scalar_bytes()}},
+      {&Buffers::maxima, {"maxima", room * 2 * layout.scalar_bytes()}},
   };
 }
 
 /// For the solves of dfsph.
-std::vector<Request> solve_requests(const WorkShape& shape) {
+std::vector<Request> solve_requests(const Layout& layout, const WorkShape& shape) {
   std::vector<Request> all = {
-      {&Buffers::solve, {"pressure solve", SQUALL_SOLVE_FIELDS * solve_stride(shape) * sizeof(cl_float)}},
+      {&Buffers::solve, {"pressure solve", SQUALL_SOLVE_FIELDS * solve_stride(shape) * layout.scalar_bytes()}},
       {&Buffers::shares, {"shares of sums", share_count(shape) * sizeof(cl_long)}},
-      {&Buffers::solve_state, {"state of solves", sizeof(SolveState)}},
+      {&Buffers::solve_state, {"state of solves", k_solve_state_bytes}},
   };
   if (shape.lanes == 1)
-    all.push_back({&Buffers::errors, {"errors of particles", at_least_one(shape.capacity) * sizeof(cl_float)}});
+    all.push_back({&Buffers::errors, {"errors of particles", at_least_one(shape.capacity) * layout.scalar_bytes()}});
   return all;
 }
 
@@ -78,22 +78,27 @@ std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
   const std::size_t room = at_least_one(layout.capacity);
   std::vector<Request> all = shape.lanes > 1 ? chunk_requests(layout, shape) : bin_requests(layout);
   const std::initializer_list<Request> common = {
-      {&Buffers::records, {"particle records", round_up(room * k_record_bytes, k_page)}},
-      {&Buffers::sorted, {"sorted particle records", room * k_record_bytes}},
+      {&Buffers::records, {"particle records", round_up(room * layout.record_bytes(), k_page)}},
+      {&Buffers::sorted, {"sorted particle records", room * layout.record_bytes()}},
       {&Buffers::keys, {"cells of particles", room * sizeof(cl_int)}},
-      {&Buffers::densities, {"densities", room * sizeof(cl_float)}},
-      {&Buffers::isolations, {"isolations", layout.drag ? room * sizeof(cl_float) : sizeof(cl_float)}},
+      {&Buffers::densities, {"densities", room * layout.scalar_bytes()}},
+      {&Buffers::isolations, {"isolations", (layout.drag ? room : 1) * layout.scalar_bytes()}},
       {&Buffers::neighbours, {"neighbour counts", layout.statistics ? room * sizeof(cl_int) : sizeof(cl_int)}},
       {&Buffers::clamps, {"clamps", sizeof(cl_int)}},
-      {&Buffers::summaries, {"frame summaries", shape.chunks * sizeof(ChunkSummary)}},
-      {&Buffers::substeps, {"sub-step table", k_max_substeps * sizeof(Substep<float>)}},
-      {&Buffers::params, {"constants", sizeof(Params<float>), true}},
-      {&Buffers::boxes, {"boxes", at_least_one(layout.boxes.size()) * sizeof(Box<float>), true}},
+      {&Buffers::summaries,
+       {"frame summaries",
+        shape.chunks * (layout.is_double() ? sizeof(ChunkSummary<double>) : sizeof(ChunkSummary<float>))}},
+      {&Buffers::substeps,
+       {"sub-step table", k_max_substeps * (layout.is_double() ? sizeof(Substep<double>) : sizeof(Substep<float>))}},
+      {&Buffers::params, {"constants", layout.is_double() ? sizeof(Params<double>) : sizeof(Params<float>), true}},
+      {&Buffers::boxes,
+       {"boxes", at_least_one(layout.boxes.size()) * (layout.is_double() ? sizeof(Box<double>) : sizeof(Box<float>)),
+        true}},
       {&Buffers::groups, {"held blocks", at_least_one(layout.groups.size()) * sizeof(HeldGroup), true}},
   };
   all.insert(all.end(), common);
   if (layout.dfsph) {
-    const auto solve = solve_requests(shape);
+    const auto solve = solve_requests(layout, shape);
     all.insert(all.end(), solve.begin(), solve.end());
   }
   return all;
@@ -102,6 +107,15 @@ std::vector<Request> requests(const Layout& layout, const WorkShape& shape) {
 template <class Value>
 void upload(cl::CommandQueue& queue, const cl::Buffer& buffer, const std::vector<Value>& values) {
   if (!values.empty()) queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(Value), values.data());
+}
+
+template <class Scalar>
+void upload_constants(cl::CommandQueue& queue, const Layout& layout, const Buffers& buffers) {
+  std::vector<Box<Scalar>> boxes;
+  for (const auto& box : layout.boxes) boxes.push_back(in_precision<Scalar>(box));
+  upload(queue, buffers.params, std::vector<Params<Scalar>>{in_precision<Scalar>(layout.params)});
+  upload(queue, buffers.boxes, boxes);
+  upload(queue, buffers.substeps, std::vector<Substep<Scalar>>(1));
 }
 
 }  // namespace
@@ -116,12 +130,11 @@ Pages allocate_pages(std::size_t bytes) {
 namespace {
 
 /// CPU devices do not vectorise over work-items whose loops differ; GPUs do nothing else.
-int choose_lanes(const Machine& machine, Simd simd) {
-  if (simd == Simd::scalar) return 1;
-  if (simd == Simd::avx2) return 8;
-  if (simd == Simd::avx512) return 16;
-  if (!machine.is_cpu) return 1;
-  return machine.device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16 ? 16 : 8;
+int choose_lanes(const Machine& machine, const Layout& layout) {
+  if (layout.simd == Simd::scalar || (layout.simd == Simd::best && !machine.is_cpu)) return 1;
+  const bool widest = layout.simd == Simd::best && machine.device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16;
+  const int floats = widest || layout.simd == Simd::avx512 ? 16 : 8;
+  return layout.is_double() ? floats / 2 : floats;
 }
 
 }  // namespace
@@ -141,7 +154,7 @@ WorkShape make_shape(const Machine& machine, const Layout& layout) {
   };
   WorkShape shape;
   shape.capacity = layout.capacity;
-  shape.lanes = choose_lanes(machine, layout.simd);
+  shape.lanes = choose_lanes(machine, layout);
   shape.group = value(work.group, shape.group);
   if (const auto largest = machine.device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(); shape.group > largest)
     throw InputError("work groups of " + std::to_string(shape.group) + " are too large for " + machine.info.name +
@@ -185,10 +198,11 @@ Buffers make_buffers(Machine& machine, const Layout& layout, const WorkShape& sh
   }
   for (auto& ids : buffers.ids)
     ids = cl::Buffer(machine.context, CL_MEM_READ_WRITE, at_least_one(layout.capacity) * sizeof(cl_uint));
-  upload(machine.queue, buffers.params, std::vector<Params<float>>{layout.params});
-  upload(machine.queue, buffers.boxes, layout.boxes);
+  if (layout.is_double())
+    upload_constants<double>(machine.queue, layout, buffers);
+  else
+    upload_constants<float>(machine.queue, layout, buffers);
   upload(machine.queue, buffers.groups, layout.groups);
-  upload(machine.queue, buffers.substeps, std::vector<Substep<float>>(1));
   // Every sort leaves zeros for the next one (sort_bin_starts.cl).
   if (shape.lanes == 1)
     upload(machine.queue, buffers.histograms,

@@ -12,8 +12,8 @@ namespace squall::opencl {
 
 /// What a solver knows before it allocates.
 struct Layout {
-  Params<float> params;
-  std::vector<Box<float>> boxes;
+  Params<double> params;
+  std::vector<Box<double>> boxes;
   std::vector<HeldGroup> groups;
   std::size_t capacity = 0;  ///< particles
   bool drag = false;
@@ -21,7 +21,13 @@ struct Layout {
   bool dfsph = false;
   Readback readback = Readback::none;
   WorkSizes work;
-  Simd simd = Simd::best;  ///< lanes: scalar 1, avx2 8, avx512 16; best: by the device
+  Precision precision = Precision::single_precision;  ///< of everything on the device but delivered positions
+  /// Lanes: scalar 1, avx2 8, avx512 16, and half as many in double precision; best: by the device.
+  Simd simd = Simd::best;
+
+  bool is_double() const { return precision == Precision::double_precision; }
+  std::size_t scalar_bytes() const { return is_double() ? sizeof(double) : sizeof(float); }
+  std::size_t record_bytes() const { return 8 * scalar_bytes(); }
 };
 
 /// How work is cut into work-items. Fixed for a run, so that a compiler that specialises kernels by shape meets each
@@ -52,7 +58,7 @@ struct PageDeleter {
 using Pages = std::unique_ptr<std::byte[], PageDeleter>;
 Pages allocate_pages(std::size_t bytes);
 
-/// Everything on the device. A record is 32 bytes: {x, y, z, spare, vx, vy, vz, spare}.
+/// Everything on the device. A record is eight numbers: {x, y, z, spare, vx, vy, vz, spare}.
 struct Buffers {
   cl::Buffer records;                ///< between sub-steps, in the order of the last sort
   cl::Buffer sorted;                 ///< within a sub-step

@@ -43,6 +43,12 @@ bool promises_bits(const cl::Device& device) {
   return (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & k_needed) == k_needed;
 }
 
+/// Where a device computes in double precision, OpenCL demands all that the promise of bits rests on.
+bool computes_in_double(const cl::Device& device) {
+  const std::string extensions = " " + device.getInfo<CL_DEVICE_EXTENSIONS>() + " ";
+  return extensions.find(" cl_khr_fp64 ") != std::string::npos;
+}
+
 DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int index) {
   DeviceInfo info;
   info.backend = "opencl";
@@ -54,11 +60,12 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int 
     info.version = device.getInfo<CL_DEVICE_VERSION>();
     info.kind = kind_of(device.getInfo<CL_DEVICE_TYPE>());
     info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+    info.has_double = computes_in_double(device);
     info.bitwise = promises_bits(device);
     info.problem = what_is_missing(device);
   } catch (const cl::Error& error) {
     info.problem = device_error(error, info.name).what();
-    info.bitwise = false;
+    info.has_double = info.bitwise = false;
   }
   return info;
 }
@@ -194,12 +201,20 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::str
   return chosen;
 }
 
+void check_precision(const DeviceInfo& device, Precision precision) {
+  if (precision == Precision::double_precision && !device.has_double)
+    throw DeviceError("OpenCL device " + device.name +
+                      " does not compute in double precision: it lacks the extension cl_khr_fp64; drop --precision "
+                      "double or pick another --device");
+}
+
 Machine open_machine(const Settings& settings) {
   std::string problem;
   const std::vector<FoundDevice> found = find_devices(&problem);
   std::vector<DeviceInfo> infos;
   for (const auto& one : found) infos.push_back(one.info);
   const FoundDevice& chosen = found[choose_device(infos, settings.device, problem)];
+  check_precision(chosen.info, settings.precision);
   return translate_errors(chosen.info.name, [&] {
     Machine machine;
     machine.info = chosen.info;

@@ -23,6 +23,9 @@ std::vector<FoundDevice> find_devices(std::string* problem);
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted,
                           const std::string& problem);
 
+/// Throws DeviceError if the device lacks what a precision needs.
+void check_precision(const DeviceInfo& device, Precision precision);
+
 /// A device opened for one solver: a context and an in-order queue of its own.
 struct Machine {
   DeviceInfo info;

@@ -10,8 +10,8 @@
 namespace squall::opencl {
 
 /// A solver on the device that the settings name, without particles yet. Builds the kernels and runs each once.
-/// Throws DeviceError if there is no such device (listing those there are), if the scene does not fit into it, or if it
-/// fails; InputError for a precision other than single.
+/// Throws DeviceError if there is no such device (listing those there are), if the scene does not fit into it, if it
+/// fails, or if double precision is asked for and it has none.
 std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings);
 
 /// Devices of all platforms, in the order that Settings::device counts. Never throws: what goes wrong is said in a

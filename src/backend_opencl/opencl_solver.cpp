@@ -16,6 +16,7 @@
 #include "backend_opencl/shared_memory.h"
 #include "backend_opencl/sort.h"
 #include "chunks.h"
+#include "core/precision.h"
 
 namespace squall::opencl {
 
@@ -28,11 +29,13 @@ double milliseconds(SteadyClock::time_point begin, SteadyClock::time_point end) 
 }
 
 /// As the kernels read it.
+template <class Scalar>
 struct Record {
-  float x, y, z, spare_0, vx, vy, vz, spare_1;
+  Scalar x, y, z, spare_0, vx, vy, vz, spare_1;
 };
-static_assert(sizeof(Record) == 32);
+static_assert(sizeof(Record<float>) == 32 && sizeof(Record<double>) == 64);
 
+template <class Scalar>
 class OpenclSolver final : public Solver {
  public:
   OpenclSolver(const Scene& scene, const Settings& settings)
@@ -68,7 +71,10 @@ class OpenclSolver final : public Solver {
   }
 
   const std::string& device_name() const { return machine_.info.name; }
-  std::string lanes_name() const { return shape_.lanes == 1 ? "scalar" : "float" + std::to_string(shape_.lanes); }
+  std::string lanes_name() const {
+    const bool single = settings().precision == Precision::single_precision;
+    return shape_.lanes == 1 ? "scalar" : (single ? "float" : "double") + std::to_string(shape_.lanes);
+  }
 
   void set_up();
   void warm_up();
@@ -89,8 +95,8 @@ class OpenclSolver final : public Solver {
   std::optional<Passes> passes_;
   std::optional<PressureSolve> solve_;    // of dfsph
   std::optional<PositionReader> reader_;  // after the buffers: it unmaps before they go
-  std::vector<Substep<float>> table_;
-  std::vector<ChunkSummary> summaries_;
+  std::vector<Substep<Scalar>> table_;
+  std::vector<ChunkSummary<Scalar>> summaries_;
   int count_ = 0;
   int settled_count_ = 0;  ///< when the last frame ended, or as loaded: without what was appended since
   int ids_now_ = 0;        ///< which of the two id buffers is current
@@ -98,16 +104,18 @@ class OpenclSolver final : public Solver {
   std::string options_;  ///< of the kernels
 };
 
-void OpenclSolver::set_up() {
+template <class Scalar>
+void OpenclSolver<Scalar>::set_up() {
   Layout layout;
-  layout.params = to_single(params());
-  for (const auto& box : boxes()) layout.boxes.push_back(to_single(box));
+  layout.params = params();
+  layout.boxes = boxes();
   layout.groups = held_groups();
   layout.capacity = capacity();
   layout.drag = !scene().rains.empty();
   layout.dfsph = is_dfsph();
   layout.statistics = settings().statistics;
   layout.readback = settings().readback;
+  layout.precision = settings().precision;
   layout.simd = settings().simd;
   layout.work = settings().work;
   shape_ = make_shape(machine_, layout);
@@ -116,10 +124,10 @@ void OpenclSolver::set_up() {
   check_limits(machine_, needs);
 
   const auto begin = SteadyClock::now();
-  options_ = build_options(scene(), settings().pressure, machine_.rounds_correctly, shape_.lanes);
+  options_ = build_options(scene(), settings(), machine_.rounds_correctly, shape_.lanes);
   const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(), options_);
   const bool shared = PositionReader::wants_shared(layout.readback) && shares_host_memory(machine_, program);
-  buffers_ = make_buffers(machine_, layout, shape_, shared && layout.readback == Readback::mapped);
+  buffers_ = make_buffers(machine_, layout, shape_, shared && PositionReader::delivers_records(layout));
   sort_ = make_sort(program, buffers_, shape_);
   passes_.emplace(program, buffers_, shape_, settings().pressure);
   if (is_dfsph()) solve_.emplace(program, buffers_, shape_, scene().solver);
@@ -130,7 +138,8 @@ void OpenclSolver::set_up() {
 }
 
 /// Runs every kernel once, in the shape it will have, on no particles: some drivers compile that late.
-void OpenclSolver::warm_up() {
+template <class Scalar>
+void OpenclSolver<Scalar>::warm_up() {
   passes_->enqueue_release(launcher_, 0, 0, 0);
   sort_->enqueue(launcher_, 0, 0, 0);
   if (solve_) {
@@ -146,44 +155,47 @@ void OpenclSolver::warm_up() {
   launcher_.take_times();
 }
 
-void OpenclSolver::upload(const Particles& particles) {
+template <class Scalar>
+void OpenclSolver<Scalar>::upload(const Particles& particles) {
   reader_->withdraw();
   if (particles.size() == 0) return;
-  std::vector<Record> records(particles.size());
+  std::vector<Record<Scalar>> records(particles.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const Eigen::Vector3f x = particles.positions[i].cast<float>();
-    const Eigen::Vector3f v = particles.velocities[i].cast<float>();
-    const float pressure = is_dfsph() ? static_cast<float>(particles.pressures[i]) : 0.0f;
-    records[i] = {x[0], x[1], x[2], pressure, v[0], v[1], v[2], 0.0f};
+    const Eigen::Matrix<Scalar, 3, 1> x = particles.positions[i].cast<Scalar>();
+    const Eigen::Matrix<Scalar, 3, 1> v = particles.velocities[i].cast<Scalar>();
+    const Scalar pressure = is_dfsph() ? static_cast<Scalar>(particles.pressures[i]) : Scalar(0);
+    records[i] = {x[0], x[1], x[2], pressure, v[0], v[1], v[2], 0};
   }
   const auto before = static_cast<std::size_t>(count_);
   auto& queue = launcher_.queue();
-  queue.enqueueWriteBuffer(buffers_.records, CL_TRUE, before * sizeof(Record), records.size() * sizeof(Record),
-                           records.data());
+  queue.enqueueWriteBuffer(buffers_.records, CL_TRUE, before * sizeof(Record<Scalar>),
+                           records.size() * sizeof(Record<Scalar>), records.data());
   queue.enqueueWriteBuffer(buffers_.ids[ids_now_], CL_TRUE, before * sizeof(cl_uint), records.size() * sizeof(cl_uint),
                            particles.ids.data());
   count_ += static_cast<int>(records.size());
 }
 
-Particles OpenclSolver::download() {
+template <class Scalar>
+Particles OpenclSolver<Scalar>::download() {
   reader_->withdraw();
   Particles particles;
   if (count_ == 0) return particles;
   const auto size = static_cast<std::size_t>(count_);
-  std::vector<Record> records(size);
+  std::vector<Record<Scalar>> records(size);
   std::vector<std::uint32_t> ids(size);
   auto& queue = launcher_.queue();
-  queue.enqueueReadBuffer(buffers_.records, CL_TRUE, 0, size * sizeof(Record), records.data());
+  queue.enqueueReadBuffer(buffers_.records, CL_TRUE, 0, size * sizeof(Record<Scalar>), records.data());
   queue.enqueueReadBuffer(buffers_.ids[ids_now_], CL_TRUE, 0, size * sizeof(cl_uint), ids.data());
   particles.reserve(size);
   for (std::size_t i = 0; i < size; ++i) {
-    const Record& r = records[i];
+    const Record<Scalar>& r = records[i];
     particles.add(ids[i], {r.x, r.y, r.z}, {r.vx, r.vy, r.vz}, is_dfsph() ? static_cast<double>(r.spare_0) : 0.0);
   }
   return particles;
 }
 
-void OpenclSolver::advance_frame(const FramePlan& plan, bool deliver, FrameReport& report) {
+template <class Scalar>
+void OpenclSolver<Scalar>::advance_frame(const FramePlan& plan, bool deliver, FrameReport& report) {
   launcher_.trace().clear();  // of the warm-up
   reader_->withdraw();
   upload_table(plan, report);
@@ -199,8 +211,8 @@ void OpenclSolver::advance_frame(const FramePlan& plan, bool deliver, FrameRepor
   auto& queue = launcher_.queue();
   cl::Event summary_read;
   launcher_.trace().add(&summary_read, "read summary");
-  queue.enqueueReadBuffer(buffers_.summaries, CL_FALSE, 0, summaries_.size() * sizeof(ChunkSummary), summaries_.data(),
-                          nullptr, &summary_read);
+  queue.enqueueReadBuffer(buffers_.summaries, CL_FALSE, 0, summaries_.size() * sizeof(ChunkSummary<Scalar>),
+                          summaries_.data(), nullptr, &summary_read);
   const Completion computed(summary_read);
   if (deliver) reader_->after_frame(launcher_, count_);
   launcher_.trace().host("enqueue", enqueued_from);
@@ -218,7 +230,8 @@ void OpenclSolver::advance_frame(const FramePlan& plan, bool deliver, FrameRepor
   take_device_times(report);
 }
 
-void OpenclSolver::take_device_times(FrameReport& report) {
+template <class Scalar>
+void OpenclSolver<Scalar>::take_device_times(FrameReport& report) {
   DeviceTimes times = launcher_.take_times();
   if (!settings().profile) return;
   report.phase_ms = std::move(times.phases);
@@ -226,17 +239,19 @@ void OpenclSolver::take_device_times(FrameReport& report) {
   report.readback_hidden_ms = times.readback_hidden;
 }
 
-void OpenclSolver::upload_table(const FramePlan& plan, FrameReport& report) {
+template <class Scalar>
+void OpenclSolver<Scalar>::upload_table(const FramePlan& plan, FrameReport& report) {
   const auto begin = SteadyClock::now();
   table_.clear();
-  for (const auto& substep : plan.substeps) table_.push_back(to_single(substep));
-  launcher_.queue().enqueueWriteBuffer(buffers_.substeps, CL_FALSE, 0, table_.size() * sizeof(Substep<float>),
+  for (const auto& substep : plan.substeps) table_.push_back(in_precision<Scalar>(substep));
+  launcher_.queue().enqueueWriteBuffer(buffers_.substeps, CL_FALSE, 0, table_.size() * sizeof(Substep<Scalar>),
                                        table_.data(), nullptr, launcher_.event("upload"));
   report.upload_ms += milliseconds(begin, SteadyClock::now());
   launcher_.trace().host("upload", begin);
 }
 
-void OpenclSolver::run_substep(int step, const Substep<double>& substep, bool deliver, FrameReport& report) {
+template <class Scalar>
+void OpenclSolver<Scalar>::run_substep(int step, const Substep<double>& substep, bool deliver, FrameReport& report) {
   launcher_.trace().begin_substep();
   if (substep.released_count > 0) passes_->enqueue_release(launcher_, step, count_, ids_now_);
   sort_->enqueue(launcher_, step, count_, ids_now_);
@@ -250,8 +265,9 @@ void OpenclSolver::run_substep(int step, const Substep<double>& substep, bool de
   if (deliver) reader_->after_substep(launcher_, count_);
 }
 
-void OpenclSolver::fill_report(FrameReport& report) const {
-  ChunkSummary all{};
+template <class Scalar>
+void OpenclSolver<Scalar>::fill_report(FrameReport& report) const {
+  ChunkSummary<Scalar> all{};
   for (const auto& one : summaries_) {
     all.density_error += one.density_error;
     all.neighbours += one.neighbours;
@@ -276,9 +292,8 @@ void OpenclSolver::fill_report(FrameReport& report) const {
 }  // namespace
 
 std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings) {
-  if (settings.precision != Precision::single_precision)
-    throw InputError("the opencl backend computes in single precision; drop --precision double, or use --backend omp");
-  return std::make_unique<OpenclSolver>(scene, settings);
+  if (settings.precision == Precision::single_precision) return std::make_unique<OpenclSolver<float>>(scene, settings);
+  return std::make_unique<OpenclSolver<double>>(scene, settings);
 }
 
 }  // namespace squall::opencl

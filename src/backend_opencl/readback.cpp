@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "backend_opencl/kernel_arguments.h"
+#include "core/frame_plan.h"
 
 namespace squall::opencl {
 
@@ -11,12 +12,14 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::size_t k_record_bytes = 32;
+constexpr std::size_t k_record_bytes = 32;  // in single precision
 constexpr std::size_t k_float4_bytes = 16;
 constexpr std::size_t k_codes_bytes = 6;
 constexpr float k_largest_code = k_lost_code - 1;
 
-bool stages(Readback mode) { return mode != Readback::none && mode != Readback::mapped; }
+bool stages(const Layout& layout) {
+  return layout.readback != Readback::none && !PositionReader::delivers_records(layout);
+}
 
 std::size_t staged_bytes(Readback mode) { return mode == Readback::quantized ? k_codes_bytes : k_float4_bytes; }
 
@@ -40,7 +43,8 @@ double milliseconds(SteadyClock::time_point begin, SteadyClock::time_point end) 
 
 }  // namespace
 
-Eigen::Vector3f quantization_steps(const Params<float>& p) {
+Eigen::Vector3f quantization_steps(const Params<double>& params) {
+  const Params<float> p = to_single(params);
   const float top = p.lid > 0.0f ? p.size_y : p.size_y + p.lost_distance;
   return Eigen::Vector3f(p.size_x, top, p.size_z) / k_largest_code;
 }
@@ -48,15 +52,16 @@ Eigen::Vector3f quantization_steps(const Params<float>& p) {
 PositionReader::PositionReader(Machine& machine, const cl::Program& program, const Buffers& buffers,
                                const Layout& layout, const WorkShape& shape, bool shared)
     : mode_(layout.readback),
+      stages_(stages(layout)),
       shared_(shared),
       shape_(shape),
       position_bytes_(staged_bytes(mode_)),
       steps_(quantization_steps(layout.params)),
       queue_(machine.queue),
       records_(buffers.records) {
-  if (!stages(mode_)) return;
+  if (!stages_) return;
   const std::size_t bytes = staging_bytes(layout);
-  if (mode_ == Readback::quantized && shared_) staging_pages_ = allocate_pages(bytes);
+  if (shared_) staging_pages_ = allocate_pages(bytes);
   staging_ = cl::Buffer(machine.context, CL_MEM_READ_WRITE | (staging_pages_ ? CL_MEM_USE_HOST_PTR : 0), bytes,
                         staging_pages_.get());
   kernel_ = cl::Kernel(program, kernel_name(mode_));
@@ -84,14 +89,14 @@ PositionReader::~PositionReader() {
 
 std::vector<MemoryNeed> PositionReader::memory_needs(const Layout& layout) {
   std::vector<MemoryNeed> needs;
-  if (stages(layout.readback)) needs.push_back({"staged positions", staging_bytes(layout)});
+  if (stages(layout)) needs.push_back({"staged positions", staging_bytes(layout)});
   for (std::size_t i = 0; i < pinned_count(layout.readback, false); ++i)
     needs.push_back({"pinned positions", staging_bytes(layout)});
   return needs;
 }
 
 void PositionReader::warm_up(Launcher& launcher) {
-  if (stages(mode_)) run_kernel(launcher, 0);
+  if (stages_) run_kernel(launcher, 0);
 }
 
 void PositionReader::withdraw() {
@@ -148,11 +153,11 @@ void PositionReader::read_and_wait(Launcher& launcher, std::size_t count) {
 void PositionReader::after_frame(Launcher& launcher, int count) {
   if (count == 0) return;
   const auto size = static_cast<std::size_t>(count);
-  if (mode_ == Readback::mapped) {
+  if (mode_ == Readback::mapped && !stages_) {
     map(launcher, records_, size * k_record_bytes);
-  } else if (mode_ == Readback::pinned || mode_ == Readback::quantized) {
+  } else if (mode_ == Readback::pinned || mode_ == Readback::mapped || mode_ == Readback::quantized) {
     run_kernel(launcher, size);
-    if (mode_ == Readback::quantized && shared_) {
+    if (mode_ == Readback::mapped || (mode_ == Readback::quantized && shared_)) {
       map(launcher, staging_, size * position_bytes_);
     } else {
       read(launcher, queue_, pinned_.front()->data(), size, nullptr);
@@ -204,7 +209,7 @@ void PositionReader::show(const void* data, std::size_t count) {
   const bool coded = mode_ == Readback::quantized;
   view_.data = data;
   view_.format = coded ? PositionFormat::unorm16 : PositionFormat::float32;
-  view_.stride = mode_ == Readback::mapped ? k_record_bytes : position_bytes_;
+  view_.stride = stages_ ? position_bytes_ : k_record_bytes;
   view_.count = count;
   if (coded) view_.scale = steps_;
 }

@@ -15,7 +15,7 @@ namespace squall::opencl {
 
 /// Metres per code of Readback::quantized, so that the whole of where particles can be has a code: the container, and
 /// without a lid the lost distance above it.
-Eigen::Vector3f quantization_steps(const Params<float>& params);
+Eigen::Vector3f quantization_steps(const Params<double>& params);
 
 /// How positions reach the host: the read-back modes, all of them, and nothing else (docs/readback.md). After finish()
 /// no command of any mode is in flight.
@@ -30,6 +30,10 @@ class PositionReader {
 
   /// Whether it matters to a mode that device and host share memory.
   static bool wants_shared(Readback mode) { return mode == Readback::mapped || mode == Readback::quantized; }
+  /// Whether the records themselves are delivered: positions are delivered in single precision.
+  static bool delivers_records(const Layout& layout) {
+    return layout.readback == Readback::mapped && !layout.is_double();
+  }
   static std::vector<MemoryNeed> memory_needs(const Layout& layout);
 
   /// Runs its kernels once, on no particles.
@@ -71,6 +75,7 @@ class PositionReader {
   void show(const void* data, std::size_t count);
 
   Readback mode_;
+  bool stages_;  ///< by its kernel: into `staging_`
   bool shared_;
   WorkShape shape_;
   std::size_t position_bytes_;  ///< in `staging_`

@@ -14,8 +14,10 @@ struct DeviceInfo {
   std::string version;
   std::string kind;  ///< "cpu", "gpu", "accelerator"
   int compute_units = 0;
-  std::string problem;  ///< why it cannot run; empty if it can
-  bool bitwise = true;  ///< promises the same bits as the others (FMA, denormals, correctly rounded divide and sqrt)
+  std::string problem;     ///< why it cannot run; empty if it can
+  bool has_double = true;  ///< computes in double precision, too, and then always promises the same bits
+  bool bitwise = true;     ///< in single precision: promises the same bits as the others (FMA, denormals, correctly
+                           ///< rounded divide and sqrt)
 };
 
 }  // namespace squall

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/precision.h"
 #include "core/reference_dfsph.h"
 #include "core/reference_passes.h"
 
@@ -14,23 +15,15 @@ template <class Scalar>
 Scalar cast(double value) {
   return static_cast<Scalar>(value);
 }
-template <class Scalar, template <class> class Struct>
-Struct<Scalar> cast(const Struct<double>& value) {
-  if constexpr (std::is_same_v<Scalar, double>)
-    return value;
-  else
-    return to_single(value);
-}
-
 template <class Scalar>
 class ReferenceSolver final : public Solver {
  public:
   ReferenceSolver(const Scene& scene, const Settings& settings)
       : Solver(scene, settings),
-        p_(cast<Scalar, Params>(params())),
+        p_(in_precision<Scalar>(params())),
         terms_{settings.pressure, scene.fluid.viscosity_m2_s.has_value(), !scene.rains.empty(),
                scene.solver.xsph > 0.0} {
-    for (const auto& box : boxes()) boxes_single_.push_back(cast<Scalar, Box>(box));
+    for (const auto& box : boxes()) boxes_single_.push_back(in_precision<Scalar>(box));
   }
 
   SolverInfo info() const override { return {"reference", "one thread", "", 1, "", 0.0}; }
@@ -56,7 +49,7 @@ class ReferenceSolver final : public Solver {
 
   void do_advance(const FramePlan& plan, Delivery delivery, FrameReport& report) override {
     max_speed2_ = max_acceleration2_ = 0;
-    for (const auto& substep : plan.substeps) advance_substep(cast<Scalar, Substep>(substep), report);
+    for (const auto& substep : plan.substeps) advance_substep(in_precision<Scalar>(substep), report);
     report.active = sorted_.active();
     report.lost = std::count_if(sorted_.particles.begin(), sorted_.particles.end(),
                                 [](const auto& particle) { return is_lost(particle.x[0]); });

@@ -95,6 +95,7 @@ Json to_json(const DeviceInfo& device) {
           {"version", device.version},
           {"kind", device.kind},
           {"compute_units", device.compute_units},
+          {"double_precision", device.has_double},
           {"bitwise", device.bitwise},
           {"problem", device.problem}};
 }

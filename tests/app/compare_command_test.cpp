@@ -80,6 +80,24 @@ TEST(CompareCommand, ThreadCountsAgreeBitByBit) {
   EXPECT_EQ(std::count(frames.begin(), frames.end(), '\n'), 1 + 4 * 10);
 }
 
+// Double precision is the reference's to the last bit, on every backend and in every read-back mode.
+TEST(CompareCommand, InDoublePrecisionAllHitTheReference) {
+  const Outcome outcome = squall({"compare", k_tiny, "--precision", "double", "--backend", "reference", "--backend",
+                                  "omp", "--backend", "opencl", "--frames", "6", "--threads", "2", "--json", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["agreement"]["bitwise"], true);
+  EXPECT_EQ(result["agreement"]["verdict"], "same bits in 7 double-precision runs after each of 11 frames");
+  ASSERT_EQ(result["runs"].size(), 8u);
+  for (const auto& run : result["runs"]) {
+    EXPECT_EQ(run["precision"], "double") << run["label"];
+    EXPECT_EQ(run["position_error_dx"], 0.0) << run["label"];
+    EXPECT_EQ(run["state_hash"], result["runs"][0]["state_hash"]) << run["label"];
+    EXPECT_FALSE(run.contains("error")) << run["label"];
+  }
+  EXPECT_EQ(result["runs"][1]["label"], "omp, 2 threads, double");
+}
+
 TEST(CompareCommand, AThreadCountAskedForTwiceRunsOnce) {
   const Outcome outcome =
       squall({"compare", k_tiny, "--backend", "omp", "--threads", "2,1,2,1", "--frames", "2", "--json", "-"});

@@ -17,7 +17,7 @@
 namespace squall::test {
 namespace {
 
-using openmp::Record;
+using Record = openmp::Record<float>;
 
 class OmpSort : public testing::TestWithParam<std::tuple<int, int>> {};
 
@@ -39,13 +39,13 @@ TEST_P(OmpSort, IsTheStableSort) {
     records[i] = {lost ? SQUALL_LOST_COORDINATE : place(random), place(random), place(random), 0, 0, 0, 0, 0};
   }
 
-  openmp::CountingSort sort(p.cell_count, threads);
+  openmp::CountingSort<float> sort(p.cell_count, threads);
   openmp::TeamBarrier barrier(threads);
   std::vector<Record> sorted(records.size());
   std::vector<std::uint32_t> sorted_ids(ids.size());
   std::vector<int> keys(ids.size());
   std::vector<float> x(ids.size()), y(ids.size()), z(ids.size());
-  const openmp::UnsortedParticles from{records.data(), ids.data(), keys.data()};
+  const openmp::UnsortedParticles<float> from{records.data(), ids.data(), keys.data()};
 #pragma omp parallel num_threads(threads)
   {
     const int thread = omp_get_thread_num();

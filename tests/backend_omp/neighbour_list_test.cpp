@@ -10,7 +10,7 @@
 namespace squall::test {
 namespace {
 
-using openmp::NeighbourList;
+using NeighbourList = openmp::NeighbourList<float>;
 
 TEST(NeighbourLists, KeepWhatTheyHoldAsTheyGrow) {
   NeighbourList list;

@@ -79,10 +79,16 @@ TEST(Device, ListsWhatTheDriverSays) {
   EXPECT_FALSE(found.front().name.empty());
 }
 
-TEST(Device, RefusesDoublePrecision) {
-  Settings settings;
-  settings.precision = Precision::double_precision;
-  EXPECT_THROW(opencl::make_solver(load_scene(SQUALL_TEST_SCENES_DIR "/tiny.toml"), settings), InputError);
+TEST(Device, WithoutDoublePrecisionIsNamedWithWhatItLacks) {
+  DeviceInfo device;
+  device.name = "Plain GPU";
+  device.has_double = false;
+  EXPECT_NO_THROW(check_precision(device, Precision::single_precision));
+  const std::string text = device_error_of([&] { check_precision(device, Precision::double_precision); });
+  EXPECT_THAT(text, HasSubstr("Plain GPU"));
+  EXPECT_THAT(text, HasSubstr("cl_khr_fp64"));
+  device.has_double = true;
+  EXPECT_NO_THROW(check_precision(device, Precision::double_precision));
 }
 
 TEST(Device, UsesAsManyThreadsAsAskedFor) {

@@ -19,8 +19,8 @@ struct Record {
 };
 static_assert(sizeof(Record) == 32);
 
-Params<float> tank(bool lid) {
-  Params<float> p{};
+Params<double> tank(bool lid) {
+  Params<double> p{};
   p.size_x = 0.7f;
   p.size_y = 0.3f;
   p.size_z = 1.9f;

@@ -27,8 +27,8 @@ struct Record {
   bool operator==(const Record&) const = default;
 };
 
-Params<float> small_grid() {
-  Params<float> p{};
+Params<double> small_grid() {
+  Params<double> p{};
   p.cells_x = 14;
   p.cells_y = 5;
   p.cells_z = 3;
@@ -90,7 +90,7 @@ Input mixed(std::size_t count) {
   return input;
 }
 
-int key(const Params<float>& p, const Input& input, std::size_t i) {
+int key(const Params<double>& p, const Input& input, std::size_t i) {
   const Record& record = input.records[i];
   if (is_lost(record.x)) return lost_cell(&p);
   return input.ids[i] < input.held_until ? held_cell(&p) : cell_of(&p, record.x, record.y, record.z);

@@ -36,17 +36,22 @@ inline BackendUnderTest reference(Precision precision, Pressure pressure) {
   return made;
 }
 
-inline BackendUnderTest omp(const std::string& variant, int threads, Simd simd, Pressure pressure) {
+inline BackendUnderTest omp(const std::string& variant, int threads, Simd simd, Pressure pressure,
+                            Precision precision = Precision::single_precision) {
   BackendUnderTest made{"omp_" + variant, "omp", {}};
+  made.settings.precision = precision;
   made.settings.threads = threads;
   made.settings.simd = simd;
   made.settings.pressure = pressure;
   return made;
 }
 
-/// Each width has kernels of its own: scalar those of GPUs, avx2 and avx512 those of CPU devices, 8 and 16 lanes wide.
-inline BackendUnderTest opencl(const std::string& variant, Simd simd, Pressure pressure) {
+/// Each width has kernels of its own: scalar those of GPUs, avx2 and avx512 those of CPU devices, 8 and 16 lanes wide,
+/// 4 and 8 in double precision.
+inline BackendUnderTest opencl(const std::string& variant, Simd simd, Pressure pressure,
+                               Precision precision = Precision::single_precision) {
   BackendUnderTest made{"opencl_" + variant, "opencl", {}};
+  made.settings.precision = precision;
   made.settings.simd = simd;
   made.settings.pressure = pressure;
   return made;
@@ -64,22 +69,29 @@ inline std::vector<Simd> processor_simd() {
   return sets;
 }
 
-/// Those that promise the same bits as each other: single precision, strict.
-inline std::vector<BackendUnderTest> bitwise_backends(Pressure pressure) {
+/// Those that promise the same bits as each other: strict ones of one precision, the specification last.
+inline std::vector<BackendUnderTest> bitwise_backends(Pressure pressure,
+                                                      Precision precision = Precision::single_precision) {
   std::vector<BackendUnderTest> all;
   for (const int threads : {1, 2, 3})
-    all.push_back(omp(std::to_string(threads) + "_threads", threads, Simd::best, pressure));
-  for (const Simd simd : processor_simd()) all.push_back(omp(to_string(simd), 2, simd, pressure));
-  all.push_back(opencl("particles", Simd::scalar, pressure));
-  all.push_back(opencl("float8", Simd::avx2, pressure));
-  all.push_back(opencl("float16", Simd::avx512, pressure));
-  all.push_back(reference(Precision::single_precision, pressure));
+    all.push_back(omp(std::to_string(threads) + "_threads", threads, Simd::best, pressure, precision));
+  for (const Simd simd : processor_simd()) all.push_back(omp(to_string(simd), 2, simd, pressure, precision));
+  const bool single = precision == Precision::single_precision;
+  all.push_back(opencl("particles", Simd::scalar, pressure, precision));
+  all.push_back(opencl(single ? "float8" : "double4", Simd::avx2, pressure, precision));
+  all.push_back(opencl(single ? "float16" : "double8", Simd::avx512, pressure, precision));
+  all.push_back(reference(precision, pressure));
   return all;
 }
 
-/// All of them.
+inline constexpr Precision k_precisions[] = {Precision::single_precision, Precision::double_precision};
+
+/// All of them; of double precision one for each way to write the code, since all give the same bits.
 inline std::vector<BackendUnderTest> all_backends(Pressure pressure) {
   std::vector<BackendUnderTest> all = bitwise_backends(pressure);
+  all.push_back(omp("double", 2, Simd::best, pressure, Precision::double_precision));
+  all.push_back(opencl("double_particles", Simd::scalar, pressure, Precision::double_precision));
+  all.push_back(opencl("double4", Simd::avx2, pressure, Precision::double_precision));
   all.push_back(reference(Precision::double_precision, pressure));
   return all;
 }

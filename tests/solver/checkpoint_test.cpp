@@ -59,20 +59,22 @@ TEST_P(CheckpointOf, LoadThenRunEqualsRun) {
 
 // Every frame on another backend, by way of a file: the bits of one that runs alone.
 TEST(Checkpoints, GoFromBackendToBackend) {
-  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller}) {
-    const Scene scene = busy_tank();
-    const std::vector<BackendUnderTest> backends = bitwise_backends(pressure);
-    const auto alone = backends[0].make(scene);
-    State carried = alone->state();
-    for (const BackendUnderTest& backend : backends) {
-      alone->advance();
-      const auto solver = backend.make(scene);
-      solver->restore(carried);
-      solver->advance();
-      carried = through_a_file(*solver, solver->state());
-      ASSERT_EQ(first_difference(carried.particles, alone->state().particles), "") << backend.name;
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph})
+    for (const Precision precision : k_precisions) {
+      const Scene scene = busy_tank();
+      const std::vector<BackendUnderTest> backends = bitwise_backends(pressure, precision);
+      const auto alone = backends[0].make(scene);
+      State carried = alone->state();
+      for (const BackendUnderTest& backend : backends) {
+        SCOPED_TRACE(testing::Message() << backend.name << ", " << to_string(pressure) << ", " << to_string(precision));
+        alone->advance();
+        const auto solver = backend.make(scene);
+        solver->restore(carried);
+        solver->advance();
+        carried = through_a_file(*solver, solver->state());
+        ASSERT_EQ(first_difference(carried.particles, alone->state().particles), "");
+      }
     }
-  }
 }
 
 }  // namespace

@@ -8,10 +8,10 @@ namespace squall::test {
 namespace {
 
 /// Each shape of the OpenCL kernels, and work cut otherwise than a device's default.
-std::vector<BackendUnderTest> opencl_shapes() {
-  std::vector<BackendUnderTest> all = {opencl("particles", Simd::scalar, Pressure::dfsph),
-                                       opencl("float8", Simd::avx2, Pressure::dfsph),
-                                       opencl("float16", Simd::avx512, Pressure::dfsph)};
+std::vector<BackendUnderTest> opencl_shapes(Precision precision) {
+  std::vector<BackendUnderTest> all = {opencl("particles", Simd::scalar, Pressure::dfsph, precision),
+                                       opencl("narrow", Simd::avx2, Pressure::dfsph, precision),
+                                       opencl("wide", Simd::avx512, Pressure::dfsph, precision)};
   all.push_back(all[0]);
   all.back().name += " in groups of 16";
   all.back().settings.work.group = 16;
@@ -24,13 +24,13 @@ std::vector<BackendUnderTest> opencl_shapes() {
 /// The reference and beside it every way of running omp, each number of threads with each instruction set, and OpenCL.
 class Beside {
  public:
-  explicit Beside(const Scene& scene) : expected_(reference(Precision::single_precision, Pressure::dfsph).make(scene)) {
+  Beside(const Scene& scene, Precision precision) : expected_(reference(precision, Pressure::dfsph).make(scene)) {
     for (const int threads : {1, 2, 3, 5})
       for (const Simd simd : processor_simd()) {
         names_.push_back(std::to_string(threads) + " threads, " + to_string(simd));
-        solvers_.push_back(omp("any", threads, simd, Pressure::dfsph).make(scene));
+        solvers_.push_back(omp("any", threads, simd, Pressure::dfsph, precision).make(scene));
       }
-    for (const BackendUnderTest& shape : opencl_shapes()) {
+    for (const BackendUnderTest& shape : opencl_shapes(precision)) {
       names_.push_back(shape.name);
       solvers_.push_back(shape.make(scene));
     }
@@ -84,24 +84,29 @@ void load_and_compare(Beside& all, const Scene& scene, std::size_t count) {
   EXPECT_GE(all.report().density_iterations_max, 2) << "two at least, also of nothing";
 }
 
-TEST(DfsphBits, OfFewAndOddNumbersOfParticles) {
+class DfsphBits : public testing::TestWithParam<Precision> {};
+
+INSTANTIATE_TEST_SUITE_P(Precisions, DfsphBits, testing::ValuesIn(k_precisions),
+                         [](const auto& info) { return to_string(info.param); });
+
+TEST_P(DfsphBits, OfFewAndOddNumbersOfParticles) {
   for (const std::size_t room : {0, 257}) {
     const Scene scene = one_substep_tank(room);
-    Beside all(scene);
+    Beside all(scene, GetParam());
     for (const std::size_t count : {257, 65, 64, 63, 17, 16, 15, 9, 8, 7, 2, 1, 0})
       if (count <= room) load_and_compare(all, scene, count);
   }
 }
 
 // Five threads share out what there is for five: 256 particles each.
-TEST(DfsphBits, OfStartsThatAreTooDenseOnMoreThreadsThanProcessors) {
+TEST_P(DfsphBits, OfStartsThatAreTooDenseOnMoreThreadsThanProcessors) {
   Scene scene = filled_tank(11);
   scene.container.max_m += Eigen::Vector3d::Constant(0.1);
   scene.time.frame_rate_hz = 250;
   Particles particles = initial_particles(scene);
   ASSERT_GT(particles.size(), 5u * 256u);
   for (auto& x : particles.positions) x = (x / std::cbrt(1.3)).cast<float>().cast<double>();
-  Beside all(scene);
+  Beside all(scene, GetParam());
   all.load(particles);
   all.run(2);
   EXPECT_GT(all.report().density_iterations, 2 * all.report().substeps);
@@ -109,7 +114,7 @@ TEST(DfsphBits, OfStartsThatAreTooDenseOnMoreThreadsThanProcessors) {
 
 // More iterations of both solves than OpenCL enqueues at once: at most 16 before the host looks again, in the first
 // sub-step 1 or 2 and then twice as many each time, 30 until it comes to those 16.
-TEST(DfsphBits, OfSolvesThatTakeManyIterations) {
+TEST_P(DfsphBits, OfSolvesThatTakeManyIterations) {
   Scene scene = filled_tank(5);
   scene.container.max_m.x() += 0.2;
   scene.solver.density_tolerance = scene.solver.divergence_tolerance = 1e-7;
@@ -117,7 +122,7 @@ TEST(DfsphBits, OfSolvesThatTakeManyIterations) {
   scene.time.frame_rate_hz = 250;
   Particles particles = initial_particles(scene);
   for (std::size_t i = 0; i < particles.size(); ++i) particles.velocities[i].y() = i % 2 == 0 ? -0.5 : 0.0;
-  Beside all(scene);
+  Beside all(scene, GetParam());
   all.load(particles);
   all.run(1);
   EXPECT_GT(all.report().density_iterations_max, 30);
@@ -126,7 +131,7 @@ TEST(DfsphBits, OfSolvesThatTakeManyIterations) {
 }
 
 // Every term that a scene can name, a box that vanishes and a block that is let go on the way.
-TEST(DfsphBits, WithSmoothingViscosityDragAndVanishingWalls) {
+TEST_P(DfsphBits, WithSmoothingViscosityDragAndVanishingWalls) {
   for (const bool viscous : {false, true}) {
     SCOPED_TRACE(viscous ? "viscous" : "without viscosity");
     Scene scene = filled_tank(4);
@@ -136,7 +141,7 @@ TEST(DfsphBits, WithSmoothingViscosityDragAndVanishingWalls) {
     scene.solver.xsph = 0.1;
     scene.rains.push_back(rain_over_tank(300));
     scene.boxes = {{{0.05, 0.22, 0.05}, {0.15, 0.3, 0.15}, 0.03}};
-    Beside all(scene);
+    Beside all(scene, GetParam());
     all.load(initial_particles(scene));
     all.run(5);
     EXPECT_GT(all.report().smoothing_viscosity, 0.0);

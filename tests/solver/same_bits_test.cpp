@@ -89,7 +89,7 @@ class LockStep {
     for (int done = 0; done < substeps && !testing::Test::HasFatalFailure();) {
       done += solvers_[0]->advance().substeps;
       const State expected = solvers_[0]->state();
-      const std::uint64_t hash = state_hash(expected.particles, Precision::single_precision);
+      const std::uint64_t hash = state_hash(expected.particles, precision());
       EXPECT_TRUE(hash != last_hash_ || expected.particles.size() == 0) << "nothing moved";
       last_hash_ = hash;
       for (std::size_t i = 1; i < solvers_.size(); ++i) {
@@ -106,8 +106,7 @@ class LockStep {
     const State state = solver.state();
     const FrameReport& report = solver.report();
     const FrameReport& expected_report = solvers_[0]->report();
-    ASSERT_EQ(state_hash(state.particles, Precision::single_precision), hash)
-        << first_difference(state.particles, expected.particles);
+    ASSERT_EQ(state_hash(state.particles, precision()), hash) << first_difference(state.particles, expected.particles);
     ASSERT_EQ(state.particles.ids, expected.particles.ids) << "the same water in another order";
     ASSERT_EQ(state.clock.max_speed, expected.clock.max_speed);
     ASSERT_EQ(state.clock.max_acceleration, expected.clock.max_acceleration);
@@ -122,6 +121,8 @@ class LockStep {
     ASSERT_EQ(report.unconverged, expected_report.unconverged);
     ASSERT_EQ(report.neighbours_mean, expected_report.neighbours_mean);
   }
+
+  Precision precision() const { return backends_.front().settings.precision; }
 
   std::vector<BackendUnderTest> backends_;
   std::vector<std::unique_ptr<Solver>> solvers_;
@@ -154,6 +155,18 @@ TEST_P(SameBits, OnAnyInstructionSetAndInTheReference) {
   LockStep(backends, scene, state_at(backends.front(), scene, window.at_s)).run(dfsph ? 20 : 100);
 }
 
+// The same in double precision, where `reference` is the yardstick of all errors. The widest OpenCL kernels
+// have their turn in the crowds below: a driver compiles for seconds for each scene's switches.
+TEST_P(SameBits, InDoublePrecision) {
+  const auto [window, pressure] = GetParam();
+  Scene scene = this->scene();
+  const bool dfsph = pressure == Pressure::dfsph;
+  scale_to_particles(scene, dfsph ? 200 : 400);
+  std::vector<BackendUnderTest> backends = bitwise_backends(pressure, Precision::double_precision);
+  std::erase_if(backends, [](const BackendUnderTest& each) { return each.name == "opencl_double8"; });
+  LockStep(backends, scene, state_at(backends.front(), scene, window.at_s)).run(dfsph ? 10 : 40);
+}
+
 // More neighbours than the OpenCL backend's lists and search batches hold (kernels/lists.h, search.h): 1,000 particles
 // within reach of each other, and a thin crowd in which some lists fit and some do not. Bits, not physics.
 TEST(SameBitsInCrowds, HoweverManyNeighboursThereAre) {
@@ -164,12 +177,13 @@ TEST(SameBitsInCrowds, HoweverManyNeighboursThereAre) {
   const Particles thin = random_particles(400, corner, corner + Eigen::Vector3d::Constant(2.5 * reach), 0, 6);
   for (std::size_t i = 0; i < thin.size(); ++i)
     crowd.add(static_cast<std::uint32_t>(1000 + i), thin.positions[i], thin.velocities[i]);
-  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph}) {
-    const std::vector<BackendUnderTest> backends = bitwise_backends(pressure);
-    const auto first = backends.front().make(scene);
-    first->load(crowd);
-    LockStep(backends, scene, first->state()).run(3);
-  }
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph})
+    for (const Precision precision : k_precisions) {
+      const std::vector<BackendUnderTest> backends = bitwise_backends(pressure, precision);
+      const auto first = backends.front().make(scene);
+      first->load(crowd);
+      LockStep(backends, scene, first->state()).run(3);
+    }
 }
 
 class SameBitsInDenseCrowds : public testing::TestWithParam<Pressure> {};
@@ -178,8 +192,8 @@ INSTANTIATE_TEST_SUITE_P(Pressures, SameBitsInDenseCrowds,
                          testing::Values(Pressure::wcsph, Pressure::mueller, Pressure::dfsph),
                          [](const auto& info) { return to_string(info.param); });
 
-// About as many candidates near a block as a search batch holds: among them blocks whose batch is full before the search
-// has come to its end, and finds no more.
+// About as many candidates near a block as a search batch holds: among them blocks whose batch is full before the
+// search has come to its end, and finds no more.
 TEST_P(SameBitsInDenseCrowds, WhereOneBatchIsJustFull) {
   const Scene scene = one_substep_tank(2000);
   const double reach = scene.support_radius();
@@ -203,13 +217,14 @@ TEST(SameBitsOfLostOnes, HoweverManyAreLost) {
   Particles torn = random_particles(1000, {0.05, 0.05, 0.05}, {0.75, 0.55, 0.35}, 0.3, 7);
   for (std::size_t i = 0; i < torn.size(); ++i)
     if (i % 3 == 1 || (i > 200 && i < 400)) torn.positions[i].x() = 100;
-  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph}) {
-    const std::vector<BackendUnderTest> backends = bitwise_backends(pressure);
-    const auto first = backends.front().make(scene);
-    first->load(torn);
-    LockStep(backends, scene, first->state()).run(3);
-    EXPECT_EQ(first->advance().lost, 466);
-  }
+  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph})
+    for (const Precision precision : k_precisions) {
+      const std::vector<BackendUnderTest> backends = bitwise_backends(pressure, precision);
+      const auto first = backends.front().make(scene);
+      first->load(torn);
+      LockStep(backends, scene, first->state()).run(3);
+      EXPECT_EQ(first->advance().lost, 466);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+#include "backend_omp/highway_double.h"
+//
+#include "backend_omp/passes-inl.h"
+
+#if HWY_STATIC_TARGET != HWY_AVX3
+#error "compile this file for AVX-512 F, BW, CD, DQ and VL"
+#endif
+
+namespace squall::openmp {
+
+template <>
+const Passes<double>& avx512_passes() {
+  return BlockPasses<Pack>::table();
+}
+
+}  // namespace squall::openmp

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace squall::openmp {
+namespace {
+using Scalar = double;
+}
+}  // namespace squall::openmp
+
+#include "backend_omp/scalar_pack.h"
