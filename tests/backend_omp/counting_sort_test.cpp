@@ -26,7 +26,7 @@ INSTANTIATE_TEST_SUITE_P(SizesAndThreads, OmpSort,
                                           testing::Values(1, 2, 3, 7)));
 
 TEST_P(OmpSort, IsTheStableSort) {
-  const auto [count, threads] = GetParam();
+  const int count = std::get<0>(GetParam()), threads = std::get<1>(GetParam());
   const Params<float> p = to_single(make_params(empty_tank(), Pressure::wcsph));
   const std::vector<HeldGroup> held = {{0, 20}};
   std::mt19937 random(static_cast<unsigned>(count));
