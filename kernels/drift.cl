@@ -20,13 +20,14 @@ __kernel void drift(__global Scalar4* records, __global const int* cell_start, _
   }
   __global const Substep* now = substeps + step;
   Scalar4 position = records[2 * (size_t)i], velocity = records[2 * (size_t)i + 1];
-  Scalar4 start = (Scalar4)(solve[field_of(SQUALL_START_VX, stride, i)], solve[field_of(SQUALL_START_VY, stride, i)],
-                            solve[field_of(SQUALL_START_VZ, stride, i)], 0.0f);
-  Scalar4 a = (velocity - start) * now->inverse_kick;
+  /* Not as vectors whose w is never used: Oclgrind's check of uninitialised values crashes on these. */
+  Scalar ax = (velocity.x - solve[field_of(SQUALL_START_VX, stride, i)]) * now->inverse_kick;
+  Scalar ay = (velocity.y - solve[field_of(SQUALL_START_VY, stride, i)]) * now->inverse_kick;
+  Scalar az = (velocity.z - solve[field_of(SQUALL_START_VZ, stride, i)]) * now->inverse_kick;
   int event = move(p, boxes, now, &position, &velocity);
   if (event & SQUALL_CLAMPED) atomic_inc(clamps);
   position.w = solve[field_of(SQUALL_IMPULSE, stride, i)] * now->inverse_kick;
-  velocity.w = event & SQUALL_LOST ? -1.0f : squared_length(a.x, a.y, a.z);
+  velocity.w = event & SQUALL_LOST ? -1.0f : squared_length(ax, ay, az);
   records[2 * (size_t)i] = position;
   records[2 * (size_t)i + 1] = velocity;
 }
