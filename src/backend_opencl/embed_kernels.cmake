@@ -4,6 +4,7 @@
 # at run time. #line directives let the device's compiler name the file and line that were written by hand.
 
 cmake_minimum_required(VERSION 3.25)
+include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/quote_text.cmake")
 
 # Appends `name` with its headers, each once, to the text in `result`.
 function(resolve name result)
@@ -35,12 +36,14 @@ endfunction()
 
 string(REPLACE "," ";" kernels "${KERNELS}")
 set(code "// Written by embed_kernels.cmake.\n#include \"backend_opencl/program.h\"\n\n")
-string(APPEND code "namespace squall::opencl {\n\nstd::vector<KernelSource> embedded_kernels() {\n  return {\n")
+string(APPEND code "namespace squall::opencl {\n\nusing namespace std::string_literals;\n\n")
+string(APPEND code "std::vector<KernelSource> embedded_kernels() {\n  return {\n")
 foreach(kernel IN LISTS kernels)
   set(source "")
   set_property(GLOBAL PROPERTY resolved "")
   resolve("${kernel}" source)
-  string(APPEND code "      {\"kernels/${kernel}\", R\"squall(${source})squall\"},\n")
+  quote_text("${source}" quoted)
+  string(APPEND code "      {\"kernels/${kernel}\", ${quoted}},\n")
 endforeach()
 string(APPEND code "  };\n}\n\n}  // namespace squall::opencl\n")
 file(WRITE "${OUTPUT}" "${code}")

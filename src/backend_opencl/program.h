@@ -10,7 +10,7 @@ namespace squall::opencl {
 /// A kernel file with every #include resolved.
 struct KernelSource {
   const char* file;
-  const char* text;
+  std::string text;
 };
 
 /// All of kernels/*.cl, as they were when squall was built.

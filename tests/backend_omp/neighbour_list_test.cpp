@@ -15,7 +15,7 @@ using NeighbourList = openmp::NeighbourList<float>;
 TEST(NeighbourLists, KeepWhatTheyHoldAsTheyGrow) {
   NeighbourList list;
   std::size_t count = 0;
-  for (const std::size_t more : {0, 1, 2, 63, 64, 65, 1000, 100000}) {
+  for (const std::size_t more : {0u, 1u, 2u, 63u, 64u, 65u, 1000u, 100000u}) {
     ASSERT_TRUE(list.reserve(more));
     ASSERT_TRUE(list.reserve_weights(more));
     ASSERT_GE(list.capacity, count + more);

@@ -26,10 +26,12 @@ class RowSplit : public testing::TestWithParam<int> {
     for (int cell = 0; cell < p_.cells_x * p_.cells_y * p_.cells_z; ++cell)
       start_.push_back(start_.back() + (cell % 11 == 0 ? 4 : 1) * particles(random));
   }
+  int start_of_row(int row) const { return start_[static_cast<std::size_t>(row * p_.cells_x)]; }
+
   int blocks(Range rows) const {
     int sum = 0;
     for (int row = rows.begin; row < rows.end; ++row)
-      sum += (start_[(row + 1) * p_.cells_x] - start_[row * p_.cells_x] + k_lanes - 1) / k_lanes;
+      sum += (start_of_row(row + 1) - start_of_row(row) + k_lanes - 1) / k_lanes;
     return sum;
   }
 

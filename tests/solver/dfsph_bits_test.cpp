@@ -90,10 +90,10 @@ INSTANTIATE_TEST_SUITE_P(Precisions, DfsphBits, testing::ValuesIn(k_precisions),
                          [](const auto& info) { return to_string(info.param); });
 
 TEST_P(DfsphBits, OfFewAndOddNumbersOfParticles) {
-  for (const std::size_t room : {0, 257}) {
+  for (const std::size_t room : {0u, 257u}) {
     const Scene scene = one_substep_tank(room);
     Beside all(scene, GetParam());
-    for (const std::size_t count : {257, 65, 64, 63, 17, 16, 15, 9, 8, 7, 2, 1, 0})
+    for (const std::size_t count : {257u, 65u, 64u, 63u, 17u, 16u, 15u, 9u, 8u, 7u, 2u, 1u, 0u})
       if (count <= room) load_and_compare(all, scene, count);
   }
 }
