@@ -33,7 +33,8 @@ folder=bench/results/$machine
 [ "$effort" = full ] || folder=$folder/quick
 
 install_packages "${bench_packages[@]}"
-build_release -DSQUALL_BUILD_TESTS=OFF -DSQUALL_BUILD_BENCH=ON
+configure_release -DSQUALL_BUILD_TESTS=OFF -DSQUALL_BUILD_BENCH=ON
+build_release
 mkdir -p "$folder"
 log=$(mktemp)
 trap 'rm -f "$log" "$folder"/*.json.new' EXIT

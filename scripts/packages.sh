@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034
-# What squall needs of Debian 12, in one place; sourced by run.sh, test.sh and bench.sh.
+# What squall needs of Debian 12, in one place; sourced by the scripts beside it.
 
 # To build and run the command; PoCL is the OpenCL device of machines that have no other.
 run_packages=(
@@ -8,8 +8,13 @@ run_packages=(
   opencl-clhpp-headers opencl-c-headers ocl-icd-opencl-dev pocl-opencl-icd
   nlohmann-json3-dev libcli11-dev libfmt-dev gnuplot-nox
 )
-# To test it: clang-15 checks the kernels' syntax for devices that are not here, Oclgrind watches them run.
-test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev libbenchmark-dev clang-15 oclgrind python3)
+# To test it: clang-15 checks the kernels' syntax for devices that are not here.
+test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-15 python3)
+
+# For scripts/check.sh: clang with its sanitizers, its fuzzer and its OpenMP, whose archer tells ThreadSanitizer what OpenMP
+# orders; Oclgrind watches kernels run. clang-tidy is nightly.sh's.
+check_packages=("${test_packages[@]}" oclgrind clang-14 clang-format-14 libclang-rt-14-dev llvm-14 libomp-14-dev)
+nightly_packages=("${check_packages[@]}" clang-tidy-14)
 
 # To measure it: Google Benchmark, and python3 for the table.
 bench_packages=("${run_packages[@]}" libbenchmark-dev python3)
@@ -64,12 +69,21 @@ if [ ! -w "${HOME:-/nowhere}" ]; then
   mkdir -p "$POCL_CACHE_DIR"
 fi
 
-# Configures the release preset with the options given and builds it.
-build_release() {
-  local jobs
-  jobs=$(build_jobs)
+configure_release() {
   say "configuring build/release"
   cmake --preset release "$@" >&2
+}
+
+# As configure_release for all tests; with CI set, a compiler warning is an error.
+configure_tests() {
+  configure_release -DSQUALL_BUILD_TESTS=ON -DSQUALL_BUILD_BENCH=ON -DSQUALL_WARNINGS_AS_ERRORS="$([ -z "${CI:-}" ] && echo OFF || echo ON)"
+}
+
+# Builds what was configured: everything, or the targets named.
+build_release() {
+  local jobs targets=()
+  jobs=$(build_jobs)
+  [ $# = 0 ] || targets=(--target "$@")
   say "building with $jobs jobs"
-  cmake --build build/release -j "$jobs" >&2
+  cmake --build build/release -j "$jobs" "${targets[@]}" >&2
 }

@@ -6,6 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
 
 install_packages "${run_packages[@]}"
-build_release -DSQUALL_BUILD_TESTS=OFF
+configure_release -DSQUALL_BUILD_TESTS=OFF
+build_release
 say "squall compare scenes/rain.toml $*"
 exec build/release/src/app/squall compare scenes/rain.toml "$@"

@@ -6,8 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
 
 install_packages "${test_packages[@]}"
-warnings_as_errors=OFF
-[ -z "${CI:-}" ] || warnings_as_errors=ON
-build_release -DSQUALL_BUILD_TESTS=ON -DSQUALL_BUILD_BENCH=ON -DSQUALL_WARNINGS_AS_ERRORS=$warnings_as_errors
+configure_tests
+build_release
 say "ctest"
 exec ctest --test-dir build/release --output-on-failure --no-tests=error "$@"

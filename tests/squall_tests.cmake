@@ -21,7 +21,8 @@ function(squall_add_tests folder)
     target_link_libraries(${program} PRIVATE OpenMP::OpenMP_CXX)
   endif()
   target_compile_definitions(${program} PRIVATE
-    SQUALL_SCENES_DIR="${PROJECT_SOURCE_DIR}/scenes" SQUALL_TEST_SCENES_DIR="${PROJECT_SOURCE_DIR}/tests/scenes")
+    SQUALL_SCENES_DIR="${PROJECT_SOURCE_DIR}/scenes" SQUALL_TEST_SCENES_DIR="${PROJECT_SOURCE_DIR}/tests/scenes"
+    SQUALL_GOLDEN_HASHES="${PROJECT_SOURCE_DIR}/tests/golden/hashes.txt")
   target_precompile_headers(${program} PRIVATE <gtest/gtest.h> <Eigen/Core>)
 
   if(NOT arg_BACKENDS)
@@ -39,6 +40,10 @@ endfunction()
 # A filter that matches nothing would pass: GoogleTest's line about it makes the entry fail.
 function(squall_add_test_entry name program filter labels)
   add_test(NAME ${name} COMMAND ${program} "--gtest_filter=${filter}" --gtest_brief=1)
-  set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT 600
+  set(timeout 600)
+  if(SQUALL_SANITIZE)
+    set(timeout 2400)  # they slow everything down, by up to ten times
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout}
                        FAIL_REGULAR_EXPRESSION "0 tests from 0 test suites ran|SKIPPED")
 endfunction()
