@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# check.sh [PART...]: the checks behind the tests, half an hour on 2 cores; all of them, or these:
+#   format     clang-format of every source file
+#   kernels    the OpenCL kernels' syntax, for devices that are not here
+#   oclgrind   every kernel in a simulated device that reports out-of-bounds accesses, data races and uninitialised values
+#   asan       everything built by clang, warnings being errors; all tests under AddressSanitizer, UndefinedBehaviorSanitizer and LeakSanitizer
+#   property   random scenes, under the same
+#   fuzz       what reads files and command lines, 30 s each, under the same
+#   tsan       the omp backend under ThreadSanitizer
+# Every part is run, whatever fails; the exit code is 1 if one did. scripts/nightly.sh has what takes longer.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source scripts/packages.sh
+source scripts/parts.sh
+
+parts="format kernels oclgrind asan property fuzz tsan"
+
+part_format() {
+  git ls-files -z '*.cpp' '*.h' '*.cl' | xargs -0 clang-format-14 --dry-run --Werror
+  echo "$(git ls-files '*.cpp' '*.h' '*.cl' | wc -l) files are formatted"
+}
+
+part_kernels() { scripts/check_kernels.sh; }
+
+# Optimised, for a simulator is slow enough: the build that test.sh makes.
+part_oclgrind() {
+  configure_tests
+  build_release squall_app
+  scripts/check_oclgrind.sh build/release/src/app/squall tests/scenes/tiny.toml
+}
+
+part_asan() {
+  build_preset asan all
+  left_out kernels.opencl_syntax "a part of its own"
+  left_out properties "a part of its own"
+  left_out package.embed "a user's project is built without sanitizers, and test.sh does so"
+  use_sanitizer_options
+  ctest --test-dir build/asan --output-on-failure --no-tests=error -j 2 \
+    -E '^(kernels\.opencl_syntax|properties|package\.embed)$'
+}
+
+part_property() {
+  build_preset asan properties_tests
+  use_sanitizer_options
+  RC_PARAMS="seed=1 max_success=60" build/asan/tests/properties_tests
+}
+
+part_fuzz() {
+  build_preset asan fuzz_scene fuzz_checkpoint fuzz_csv fuzz_command_line
+  fuzz 30
+}
+
+part_tsan() {
+  local archer=/usr/lib/llvm-14/lib/libarcher.so as_it_is=()
+  [ -e "$archer" ] || fail "there is no $archer, which tells ThreadSanitizer what OpenMP orders (Debian: libomp-14-dev)"
+  build_preset tsan backend_omp_tests solver_tests
+  use_sanitizer_options
+  export OMP_TOOL_LIBRARIES=$archer
+  # Its shadow memory has fixed places, which addresses drawn at random may take.
+  ! setarch -R true 2>/dev/null || as_it_is=(setarch -R)
+  "${as_it_is[@]}" ctest --test-dir build/tsan --output-on-failure --no-tests=error -j 2 -R '^(backend_omp|solver\.omp)$'
+}
+
+install_packages "${check_packages[@]}"
+# shellcheck disable=SC2086 # a list of words
+[ $# -gt 0 ] || set -- $parts
+run_parts "$parts" "$@"
