@@ -3,7 +3,8 @@
 #   format     clang-format of every source file
 #   kernels    the OpenCL kernels' syntax, for devices that are not here
 #   oclgrind   every kernel in a simulated device that reports out-of-bounds accesses, data races and uninitialised values
-#   asan       everything built by clang, warnings being errors; all tests under AddressSanitizer, UndefinedBehaviorSanitizer and LeakSanitizer
+#   asan       the command, the libraries and all tests built by clang, warnings being errors, and run under AddressSanitizer,
+#              UndefinedBehaviorSanitizer and LeakSanitizer
 #   property   random scenes, under the same
 #   fuzz       what reads files and command lines, 30 s each, under the same
 #   tsan       the omp backend under ThreadSanitizer
@@ -33,6 +34,7 @@ part_asan() {
   build_preset asan all
   left_out kernels.opencl_syntax "a part of its own"
   left_out properties "a part of its own"
+  left_out "bench and its tests" "they measure, and test.sh builds and runs them"
   left_out package.embed "a user's project is built without sanitizers, and test.sh does so"
   use_sanitizer_options
   ctest --test-dir build/asan --output-on-failure --no-tests=error -j 2 \
