@@ -26,14 +26,14 @@ run_parts() {
 # left_out WHAT WHY: nothing is skipped in silence.
 left_out() { printf 'left out: %s: %s\n' "$1" "$2"; }
 
-# What sanitizers are told; the files say why each suppression is there.
+# What sanitizers are told; the files say why each suppression is there. Tests ask for more memory than there is: no error.
 use_sanitizer_options() {
   local folder=$PWD/tests/sanitizers
   export ASAN_SYMBOLIZER_PATH=/usr/lib/llvm-14/bin/llvm-symbolizer
-  export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1
+  export ASAN_OPTIONS=allocator_may_return_null=1:detect_stack_use_after_return=1:strict_string_checks=1
   export LSAN_OPTIONS=suppressions=$folder/lsan.supp:print_suppressions=0
   export UBSAN_OPTIONS=print_stacktrace=1
-  export TSAN_OPTIONS=external_symbolizer_path=$ASAN_SYMBOLIZER_PATH:suppressions=$folder/tsan.supp:ignore_noninstrumented_modules=1:print_suppressions=0
+  export TSAN_OPTIONS=allocator_may_return_null=1:external_symbolizer_path=$ASAN_SYMBOLIZER_PATH:suppressions=$folder/tsan.supp:ignore_noninstrumented_modules=1:print_suppressions=0
 }
 
 # build_preset PRESET TARGET...: with clang, a warning being an error. What lies in the cache stays: a compiler launcher, say.
