@@ -100,6 +100,7 @@ class OmpSolver final : public Solver {
     for (auto& ids : ids_) ids.resize(padded, 0, threads_);
     keys_.resize(padded, 0, threads_);
     density_.resize(padded, Scalar(1), threads_);
+    if (settings().statistics) neighbours_.resize(padded, 0, threads_);
     if (terms_.pressure == Pressure::mueller) pressure_.resize(padded, Scalar(0), threads_);
     if (terms_.drag) isolation_.resize(padded, Scalar(0), threads_);
     if (terms_.pressure == Pressure::dfsph) solve_.resize(padded, threads_);
@@ -183,6 +184,7 @@ class OmpSolver final : public Solver {
             density_.data(),
             pressure_.data(),
             isolation_.data(),
+            neighbours_.data(),
             solve_.arrays()};
   }
 
@@ -304,6 +306,25 @@ class OmpSolver final : public Solver {
     return particles;
   }
 
+  Fields do_fields() override {
+    Fields fields;
+    const auto active = static_cast<std::size_t>(sort_.cell_start()[p_.cell_count]);
+    for (std::size_t i = 0; i < active; ++i) {
+      const double density = static_cast<double>(density_[i]);
+      fields.densities.push_back(density);
+      fields.pressures.push_back(pressure_of(i, density));
+      if (settings().statistics) fields.neighbours.push_back(neighbours_[i]);
+    }
+    return fields;
+  }
+
+  /// p/rho0; wcsph keeps p/rho^2.
+  double pressure_of(std::size_t i, double density) const {
+    if (terms_.pressure == Pressure::dfsph) return static_cast<double>(state_[i].pressure_term);
+    if (terms_.pressure == Pressure::mueller) return static_cast<double>(pressure_[i]);
+    return static_cast<double>(sorted_[i].pressure_term) * density * density;
+  }
+
   static constexpr bool k_delivers_in_place = std::is_same_v<Scalar, float>;
   struct Position {
     float x, y, z;
@@ -330,6 +351,7 @@ class OmpSolver final : public Solver {
   TeamArray<Position> rounded_;               ///< what is delivered of state_, if that is in double precision
   TeamArray<int> keys_;                       ///< of state_
   TeamArray<Scalar> density_, pressure_, isolation_;
+  TeamArray<int> neighbours_;  ///< of sorted_, when last counted
 };
 
 }  // namespace

@@ -53,6 +53,7 @@ struct BlockPasses {
         std::int64_t within = -1;  // self is on the list
         for (int k = 0; k < count; ++k)
           within += is_neighbour<pressure>(*context.params, a, context.sorted[neighbours[k]]);
+        context.neighbours[i] = static_cast<int>(within);
         result.neighbours += within;
         const Scalar error = max0(context.density[i] - 1.0f);
         result.density_error_sum += static_cast<double>(error);

@@ -63,6 +63,7 @@ struct PassContext {
   Scalar* density;            ///< relative, per sorted particle
   Scalar* pressure;           ///< p/rho0 [m^2/s^2], per sorted particle; mueller only
   Scalar* isolation;          ///< per sorted particle; with drag only
+  int* neighbours;            ///< within H, without self, per sorted particle; what statistics() counts
   SolveArrays<Scalar> solve;  ///< dfsph only
 };
 

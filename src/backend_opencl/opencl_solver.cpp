@@ -70,6 +70,10 @@ class OpenclSolver final : public Solver {
     return translate_errors(device_name(), [&] { return download(); });
   }
 
+  Fields do_fields() override {
+    return translate_errors(device_name(), [&] { return read_fields(); });
+  }
+
   const std::string& device_name() const { return machine_.info.name; }
   std::string lanes_name() const {
     const bool single = settings().precision == Precision::single_precision;
@@ -80,6 +84,9 @@ class OpenclSolver final : public Solver {
   void warm_up();
   void upload(const Particles& particles);
   Particles download();
+  Fields read_fields();
+  template <class Value>
+  std::vector<Value> read(const cl::Buffer& buffer, std::size_t count);
   void advance_frame(const FramePlan& plan, bool deliver, FrameReport& report);
   void upload_table(const FramePlan& plan, FrameReport& report);
   void run_substep(int step, const Substep<double>& substep, bool deliver, FrameReport& report);
@@ -99,6 +106,7 @@ class OpenclSolver final : public Solver {
   std::vector<ChunkSummary<Scalar>> summaries_;
   int count_ = 0;
   int settled_count_ = 0;  ///< when the last frame ended, or as loaded: without what was appended since
+  int active_ = 0;         ///< in the last sub-step
   int ids_now_ = 0;        ///< which of the two id buffers is current
   double setup_ms_ = 0.0;
   std::string options_;  ///< of the kernels
@@ -195,6 +203,33 @@ Particles OpenclSolver<Scalar>::download() {
 }
 
 template <class Scalar>
+template <class Value>
+std::vector<Value> OpenclSolver<Scalar>::read(const cl::Buffer& buffer, std::size_t count) {
+  std::vector<Value> values(count);
+  if (count > 0) launcher_.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(Value), values.data());
+  return values;
+}
+
+template <class Scalar>
+Fields OpenclSolver<Scalar>::read_fields() {
+  reader_->withdraw();
+  const auto active = static_cast<std::size_t>(active_);
+  Fields fields;
+  // dfsph leaves pressures with the particles; the others keep p/rho^2 or p/(2 rho) for the sub-step.
+  const auto records = this->template read<Record<Scalar>>(is_dfsph() ? buffers_.records : buffers_.sorted, active);
+  const auto densities = this->template read<Scalar>(buffers_.densities, active);
+  if (settings().statistics) fields.neighbours = this->template read<cl_int>(buffers_.neighbours, active);
+  for (std::size_t i = 0; i < active; ++i) {
+    const double density = static_cast<double>(densities[i]), term = static_cast<double>(records[i].spare_0);
+    fields.densities.push_back(density);
+    fields.pressures.push_back(is_dfsph()                               ? term
+                               : settings().pressure == Pressure::wcsph ? term * density * density
+                                                                        : 2.0 * term * density);
+  }
+  return fields;
+}
+
+template <class Scalar>
 void OpenclSolver<Scalar>::advance_frame(const FramePlan& plan, bool deliver, FrameReport& report) {
   launcher_.trace().clear();  // of the warm-up
   reader_->withdraw();
@@ -226,6 +261,7 @@ void OpenclSolver<Scalar>::advance_frame(const FramePlan& plan, bool deliver, Fr
   report.readback_latency_frames = deliver ? reader_->latency_frames() : 0;
   settled_count_ = count_;
   fill_report(report);
+  active_ = static_cast<int>(report.active);
   launcher_.trace().take(frame_start(), report);  // before its events go
   take_device_times(report);
 }

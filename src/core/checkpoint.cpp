@@ -192,6 +192,9 @@ class Decoder {
 std::string encode_checkpoint(const Checkpoint& checkpoint) {
   const Particles& particles = checkpoint.state.particles;
   const Clock& clock = checkpoint.state.clock;
+  if (clock.substep != 0)
+    throw InputError("a checkpoint holds a run between two frames, and sub-step " + std::to_string(clock.substep) +
+                     " of one is done; advance() to its end first");
   const std::uint32_t number_bytes = is_single(particles) ? 4 : 8;
   const std::uint64_t length =
       file_bytes(particles.size(), clock.rained.size(), checkpoint.scene_text.size(), number_bytes);

@@ -28,7 +28,7 @@ inline constexpr std::uint32_t k_checkpoint_version = 1;
 std::string checkpoint_scene_text(const Scene& scene, Pressure pressure);
 
 /// The bytes of a checkpoint file (docs/checkpoint.md): little-endian on every machine, the same bytes for the same
-/// checkpoint.
+/// checkpoint. Throws InputError for a state from within a frame.
 std::string encode_checkpoint(const Checkpoint& checkpoint);
 
 /// The other way round: a pure function of the bytes. Throws InputError that begins with `path` and says what is wrong

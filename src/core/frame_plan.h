@@ -28,6 +28,10 @@ struct Clock {
   double max_acceleration = 0.0;     ///< m/s^2, largest |a| the last frame left
   std::uint32_t next_id = 0;         ///< of the next appended particle
   std::vector<std::int64_t> rained;  ///< drops released so far, per rain
+
+  int substep = 0;                       ///< sub-steps done of the frame under way; 0 between frames
+  double max_speed_so_far = 0.0;         ///< m/s, in those
+  double max_acceleration_so_far = 0.0;  ///< m/s^2, in those
 };
 
 inline constexpr int k_max_substeps = 1000;  ///< per frame

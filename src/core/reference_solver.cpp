@@ -142,6 +142,17 @@ class ReferenceSolver final : public Solver {
     return particles;
   }
 
+  Fields do_fields() override {
+    Fields fields;
+    for (int i = 0; i < sorted_.active(); ++i) {
+      const auto& particle = sorted_.particles[static_cast<std::size_t>(i)];
+      fields.densities.push_back(static_cast<double>(particle.density));
+      fields.pressures.push_back(static_cast<double>(particle.pressure));
+      if (settings().statistics) fields.neighbours.push_back(particle.neighbours);
+    }
+    return fields;
+  }
+
   Params<Scalar> p_;
   Terms terms_;
   std::vector<Box<Scalar>> boxes_single_;

@@ -68,6 +68,17 @@ double largest_speed(const Particles& particles) {
   return largest;
 }
 
+/// Takes from a frame's plan what comes after `done` sub-steps, at most so many; statistics are of its last one.
+void keep_part(const Settings& settings, int done, int most, FramePlan& plan) {
+  auto& substeps = plan.substeps;
+  if (done >= static_cast<int>(substeps.size()))
+    throw InputError("the state has done " + std::to_string(done) + " of the " + std::to_string(substeps.size()) +
+                     " sub-steps of its frame; restore it into the scene it was taken from");
+  substeps.erase(substeps.begin(), substeps.begin() + done);
+  if (static_cast<int>(substeps.size()) > most) substeps.resize(static_cast<std::size_t>(most));
+  substeps.back().statistics = settings.statistics ? 1 : 0;
+}
+
 }  // namespace
 
 Solver::Solver(Scene scene, Settings settings) : scene_(std::move(scene)), settings_(std::move(settings)) {
@@ -101,6 +112,9 @@ void Solver::load(Particles particles) {
 }
 
 void Solver::append(Particles particles) {
+  if (clock_.substep > 0)
+    throw InputError("particles are added between frames, and sub-step " + std::to_string(clock_.substep) +
+                     " of one is done; advance() to its end first");
   check_shape(particles, capacity_ - count_);
   make_ready(params_, particles);
   const double time = static_cast<double>(clock_.frame) / scene_.time.frame_rate_hz;
@@ -121,20 +135,20 @@ void Solver::append_ready(const Particles& particles) {
   clock_.max_speed = std::max(clock_.max_speed, largest_speed(particles));
 }
 
-const FrameReport& Solver::advance(Delivery delivery) {
+const FrameReport& Solver::advance(Delivery delivery) { return advance_part(k_max_substeps, delivery); }
+
+const FrameReport& Solver::advance_substep() { return advance_part(1, Delivery::nothing); }
+
+const FrameReport& Solver::advance_part(int most_substeps, Delivery delivery) {
   const auto start = SteadyClock::now();
   frame_start_ = start;
   positions_ = {};
   report_ = {};
-  Clock next = clock_;
-  const Particles drops = release_drops(scene_, settings_.seed, next);
-  check_shape(drops, capacity_ - count_);
-  clock_ = next;
-  append_ready(drops);
-  report_.upload_ms = milliseconds_since(start);
-  if (drops.size() > 0) note_host_span("rain", 0.0, report_.upload_ms);
+  if (clock_.substep == 0) rain();
 
-  const FramePlan plan = plan_frame(scene_, settings_, clock_);
+  FramePlan plan = plan_frame(scene_, settings_, clock_);
+  const int substeps_of_frame = static_cast<int>(plan.substeps.size());
+  keep_part(settings_, clock_.substep, most_substeps, plan);
   note_host_span("plan", report_.upload_ms, milliseconds_since(start));
   do_advance(plan, delivery, report_);
   if (delivery == Delivery::positions) {
@@ -142,14 +156,33 @@ const FrameReport& Solver::advance(Delivery delivery) {
     positions_.frame = plan.frame + 1 - static_cast<std::uint64_t>(report_.readback_latency_frames);
   }
   report_.frame_ms = milliseconds_since(start);
-
   finish_report(plan);
-  clock_.frame += 1;
-  clock_.previous_substeps = report_.substeps;
-  clock_.previous_dt = plan.dt;
-  clock_.max_speed = report_.max_speed;
-  clock_.max_acceleration = report_.max_acceleration;
+  finish_clock(plan, substeps_of_frame);
   return report_;
+}
+
+void Solver::rain() {
+  Clock next = clock_;
+  const Particles drops = release_drops(scene_, settings_.seed, next);
+  check_shape(drops, capacity_ - count_);
+  clock_ = next;
+  append_ready(drops);
+  report_.upload_ms = milliseconds_since(frame_start_);
+  if (drops.size() > 0) note_host_span("rain", 0.0, report_.upload_ms);
+}
+
+void Solver::finish_clock(const FramePlan& plan, int substeps_of_frame) {
+  clock_.substep += report_.substeps;
+  clock_.max_speed_so_far = std::max(clock_.max_speed_so_far, report_.max_speed);
+  clock_.max_acceleration_so_far = std::max(clock_.max_acceleration_so_far, report_.max_acceleration);
+  if (clock_.substep < substeps_of_frame) return;
+  clock_.frame += 1;
+  clock_.previous_substeps = substeps_of_frame;
+  clock_.previous_dt = plan.dt;
+  clock_.max_speed = clock_.max_speed_so_far;
+  clock_.max_acceleration = clock_.max_acceleration_so_far;
+  clock_.substep = 0;
+  clock_.max_speed_so_far = clock_.max_acceleration_so_far = 0.0;
 }
 
 void Solver::note_host_span(const char* name, double begin_ms, double end_ms) {
@@ -178,12 +211,16 @@ void Solver::finish_report(const FramePlan& plan) {
 
 State Solver::state() { return {do_download(), clock_}; }
 
+Fields Solver::fields() { return report_.substeps > 0 ? do_fields() : Fields{}; }
+
 void Solver::restore(const State& state) {
   check_shape(state.particles, capacity_);
   check_unique(state.particles.ids);
   if (state.clock.rained.size() != scene_.rains.size())
     throw InputError("the state has " + std::to_string(state.clock.rained.size()) + " rains and the scene " +
                      std::to_string(scene_.rains.size()) + "; restore it into the scene it was saved from");
+  if (state.clock.substep < 0)
+    throw InputError("the state has done " + std::to_string(state.clock.substep) + " sub-steps of its frame");
   Particles particles = state.particles;
   make_ready(params_, particles);
   do_load(particles);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/errors.h"
+#include "core/fields.h"
 #include "core/frame_plan.h"
 #include "core/frame_report.h"
 #include "core/particles.h"
@@ -59,8 +60,13 @@ class Solver {
   /// `velocities` belong to the current time. Throws InputError like load().
   void append(Particles particles);
 
-  /// One frame: rain, plan, sub-steps, delivery. Throws DeviceError if the device fails.
+  /// One frame: rain, plan, sub-steps, delivery; of a frame under way, what is left of it. Throws DeviceError if the
+  /// device fails.
   const FrameReport& advance(Delivery delivery = Delivery::positions);
+
+  /// The next sub-step alone, to look into a frame: to the same bits as advance(), which does it faster. Delivers
+  /// nothing; the report is of this sub-step. Throws like advance().
+  const FrameReport& advance_substep();
 
   /// What the last advance() delivered; empty after Delivery::nothing. With Readback::async, the state that the last
   /// advance() began with: of the frame before, or what was loaded.
@@ -69,8 +75,11 @@ class Solver {
   /// Everything, copied to the host; not timed.
   State state();
 
-  /// Continues from a state, of this or any other backend.
+  /// Continues from a state, of this or any other backend, also from within a frame.
   void restore(const State& state);
+
+  /// Densities, pressures and neighbours of the last sub-step, copied to the host; empty after load() and restore().
+  Fields fields();
 
   const FrameReport& report() const { return report_; }
 
@@ -96,7 +105,12 @@ class Solver {
   virtual PositionsView do_positions() = 0;
   /// All particles in their current order.
   virtual Particles do_download() = 0;
+  /// Of the last sub-step, which there has been; neighbours as Substep::statistics asked for them.
+  virtual Fields do_fields() = 0;
 
+  const FrameReport& advance_part(int most_substeps, Delivery delivery);
+  void rain();
+  void finish_clock(const FramePlan& plan, int substeps_of_frame);
   void append_ready(const Particles& particles);
   void finish_report(const FramePlan& plan);
   void note_host_span(const char* name, double begin_ms, double end_ms);

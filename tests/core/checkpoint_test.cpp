@@ -112,6 +112,12 @@ TEST(Checkpoint, KeepsEveryBit) {
   }
 }
 
+TEST(Checkpoint, HoldsNoStateFromWithinAFrame) {
+  Checkpoint checkpoint = odd_checkpoint(0.1);
+  checkpoint.state.clock.substep = 2;
+  EXPECT_THROW(encode_checkpoint(checkpoint), InputError);
+}
+
 TEST(Checkpoint, SingleNumbersTakeFourBytes) {
   const std::size_t text = odd_checkpoint(0).scene_text.size();
   EXPECT_EQ(good().size(), 104 + 8 + text + 2 * (4 + 7 * 4) + 8);

@@ -91,6 +91,8 @@ class FakeSolver final : public Solver {
     return copy;
   }
 
+  Fields do_fields() override { return {}; }
+
   Faults faults_;
   Particles particles_;
   std::vector<float> delivered_;
