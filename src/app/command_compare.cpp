@@ -104,7 +104,7 @@ int command_compare(const Options& options) {
   write_result(options, workload, backends, comparison.rows, comparison.agreement);
   if (folder) write_frames(comparison, *folder);
   print_notes(write_trace(options, traced_runs(comparison)), options.quiet);
-  return interrupt.requested() ? k_exit_interrupted : exit_code_of(options, comparison.rows, comparison.agreement);
+  return interrupt.requested() ? interrupt.exit_code() : exit_code_of(options, comparison.rows, comparison.agreement);
 }
 
 }  // namespace squall::app

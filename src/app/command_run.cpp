@@ -117,7 +117,7 @@ int command_run(const Options& options) {
     harness::add_profile(profile, row);
   }
   outputs.finish(run, row, backends);
-  return interrupt.requested() ? k_exit_interrupted : exit_code_of(options, {row}, std::nullopt);
+  return interrupt.requested() ? interrupt.exit_code() : exit_code_of(options, {row}, std::nullopt);
 }
 
 }  // namespace squall::app

@@ -54,8 +54,8 @@ std::vector<harness::StressResult> try_all(const std::vector<const harness::Stre
   return results;
 }
 
-int exit_code(const std::vector<harness::StressResult>& results, bool interrupted) {
-  if (interrupted) return k_exit_interrupted;
+int exit_code(const std::vector<harness::StressResult>& results, const Interrupt& interrupt) {
+  if (interrupt.requested()) return interrupt.exit_code();
   const bool unexpected = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.unexpected(); });
   return unexpected ? k_exit_unstable : k_exit_fine;
 }
@@ -74,7 +74,7 @@ int command_stress(const Options& options) {
       try_all(cases_of(options), subjects, options.quick, Progress(options.quiet, "stress"), interrupt);
   if (!options.json_alone()) std::cout << stress_text(subjects, results) << std::flush;
   write_json(options, harness::to_json(context_of(backends, {}), options.quick, results));
-  return exit_code(results, interrupt.requested());
+  return exit_code(results, interrupt);
 }
 
 }  // namespace squall::app

@@ -46,8 +46,9 @@ bool keeps_budget_somewhere(const harness::Sweep& sweep) {
   return std::any_of(sweep.budget.begin(), sweep.budget.end(), [](const auto& entry) { return entry.largest; });
 }
 
-int exit_code(const Options& options, const harness::Sweep& sweep, const std::vector<harness::Row>& rows) {
-  if (sweep.interrupted) return k_exit_interrupted;
+int exit_code(const Options& options, const harness::Sweep& sweep, const std::vector<harness::Row>& rows,
+              const Interrupt& interrupt) {
+  if (sweep.interrupted) return interrupt.exit_code();
   Options without_budget = options;  // a sweep holds its medians against it, not every row
   without_budget.budget_ms.reset();
   const int code = exit_code_of(without_budget, rows, harness::overall_agreement(sweep));
@@ -133,7 +134,7 @@ int command_sweep(const Options& options) {
   if (!options.json_alone()) std::cout << sweep_text(result) << std::flush;
   write_json(options, harness::to_json(result));
   if (folder) folder->finish(result);
-  return exit_code(options, result.sweep, rows);
+  return exit_code(options, result.sweep, rows, interrupt);
 }
 
 }  // namespace squall::app

@@ -200,7 +200,7 @@ int command_validate(const Options& options) {
   if (!options.json_alone()) std::cout << validation_summary(results) << std::flush;
   write_json(options, harness::to_json(context, results, jobs.notes));
   if (folder) folder->finish(context, results, jobs.notes);
-  return finished ? exit_code(results) : k_exit_interrupted;
+  return finished ? exit_code(results) : interrupt.exit_code();
 }
 
 }  // namespace squall::app

@@ -14,7 +14,8 @@ enum ExitCode {
   k_exit_disagree = 5,  ///< results that must be equal are not
   k_exit_unstable = 6,  ///< not finite, lost particles
   k_exit_budget = 7,
-  k_exit_interrupted = 130,
+  k_exit_interrupted = 130,  ///< Ctrl-C; what was asked for is written
+  k_exit_terminated = 143,   ///< SIGTERM; likewise
 };
 
 /// A command line that cannot be carried out.

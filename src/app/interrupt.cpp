@@ -2,27 +2,37 @@
 
 #include <csignal>
 
+#include "app/exit_codes.h"
+
 namespace squall::app {
 
 namespace {
 
-// A signal handler reaches nothing but static storage; this is the only one in squall.
-volatile std::sig_atomic_t interrupt_requested = 0;
+constexpr int k_signals[] = {SIGINT, SIGTERM};
 
-void request_interrupt(int) { interrupt_requested = 1; }
+// A signal handler reaches nothing but static storage; this is the only one in squall. The first signal, or 0.
+volatile std::sig_atomic_t requested_signal = 0;
+
+void request_interrupt(int signal) {
+  if (requested_signal == 0) requested_signal = signal;
+}
 
 }  // namespace
 
 Interrupt::Interrupt() {
-  interrupt_requested = 0;
+  requested_signal = 0;
   struct sigaction action {};
   action.sa_handler = request_interrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-  sigaction(SIGINT, &action, nullptr);
+  for (const int signal : k_signals) sigaction(signal, &action, nullptr);
 }
 
-Interrupt::~Interrupt() { std::signal(SIGINT, SIG_DFL); }
+Interrupt::~Interrupt() {
+  for (const int signal : k_signals) std::signal(signal, SIG_DFL);
+}
 
-bool Interrupt::requested() const { return interrupt_requested != 0; }
+bool Interrupt::requested() const { return requested_signal != 0; }
+
+int Interrupt::exit_code() const { return requested_signal == SIGTERM ? k_exit_terminated : k_exit_interrupted; }
 
 }  // namespace squall::app

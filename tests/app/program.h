@@ -75,6 +75,7 @@ class Program {
   }
 
   void interrupt() const { kill(child_, SIGINT); }
+  void terminate() const { kill(child_, SIGTERM); }
   void kill_now() const { kill(child_, SIGKILL); }
   void stop() const { kill(child_, SIGSTOP); }
   void go_on() const { kill(child_, SIGCONT); }
