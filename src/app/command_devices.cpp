@@ -25,6 +25,8 @@ std::string devices_text(const std::vector<BackendInfo>& backends) {
                  !runs            ? "cannot run"
                  : device.bitwise ? "yes"
                                   : "no"});
+      if (runs && !device.lacks.empty())
+        problems += fmt::format("{} {}: not the same bits for want of {}\n", backend.name, device.index, device.lacks);
       if (!runs) problems += fmt::format("{} {}: {}\n", backend.name, device.index, device.problem);
     }
   }

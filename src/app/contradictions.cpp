@@ -85,7 +85,8 @@ void check_contradictions(const Options& options) {
           backends));
   }
   if (!only_reference(options)) return;
-  if (options.simd) throw UsageError("--simd belongs to the backends omp and opencl; reference has no such choice");
+  if (options.simd || !options.simds.empty())
+    throw UsageError("--simd belongs to the backends omp and opencl; reference has no such choice");
   if (several_threads(options))
     throw UsageError("backend reference has one thread; leave --threads out or pick another --backend");
 }

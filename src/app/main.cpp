@@ -22,6 +22,8 @@ int run_command(const Options& options) {
       return command_compare(options);
     case Command::sweep:
       return command_sweep(options);
+    case Command::agree:
+      return command_agree(options);
     case Command::validate:
       return command_validate(options);
     case Command::stress:

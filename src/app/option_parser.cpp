@@ -4,16 +4,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/agree_options.h"
 #include "app/checks.h"
 #include "app/contradictions.h"
 #include "app/exit_codes.h"
 #include "app/notes.h"
+#include "app/option_adding.h"
 #include "build_info.h"
 #include "core/scene_keys.h"
 
@@ -27,23 +28,9 @@ struct Raw {
   std::string simd, precision, pressure, format = "squall";
 };
 
-constexpr const char* k_later_commands[] = {"agree", "study", "cost", "view"};
+constexpr const char* k_later_commands[] = {"study", "cost", "view"};
 constexpr const char* k_later_options[] = {"--fast-math", "--tolerance", "--max-error"};
 constexpr const char* k_checkpoint_options[] = {"--checkpoint", "--checkpoint-every", "--restart"};
-
-/// --dt-max becomes SQUALL_DT_MAX.
-std::string variable_of(std::string option) {
-  option.erase(0, 2);
-  std::transform(option.begin(), option.end(), option.begin(),
-                 [](unsigned char c) { return c == '-' ? '_' : static_cast<char>(std::toupper(c)); });
-  return "SQUALL_" + option;
-}
-
-/// Every option has its variable, and a value.
-template <class Value>
-CLI::Option* add(CLI::App& command, const std::string& name, Value& value, const std::string& help) {
-  return command.add_option(name, value, help)->envname(variable_of(name))->check(not_empty());
-}
 
 void add_later_options(CLI::App& command) {
   for (const char* name : k_later_options) {
@@ -159,10 +146,6 @@ CLI::App* add_run(CLI::App& app, Options& options, Raw& raw) {
   add_output_options(*run, options);
   add_later_options(*run);
   return run;
-}
-
-CLI::Option* list(CLI::Option* option, const char* name) {
-  return option->delimiter(',')->allow_extra_args(false)->take_all()->type_name(name);
 }
 
 /// Which runs stand side by side; what is taken where nothing is asked for differs between commands.
@@ -316,12 +299,13 @@ void understand(const Raw& raw, Options& options) {
 
 /// The parser would only say that a command is required.
 void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2) throw UsageError("a command is missing; there are devices, run, compare, sweep, validate, stress");
+  if (argc < 2)
+    throw UsageError("a command is missing; there are devices, run, compare, sweep, agree, validate, stress");
   const std::string name = argv[1];
   const auto commands = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
   if (name.rfind('-', 0) != 0 && commands.empty())
-    throw UsageError(
-        fmt::format("the command '{}' is unknown; there are devices, run, compare, sweep, validate, stress", name));
+    throw UsageError(fmt::format(
+        "the command '{}' is unknown; there are devices, run, compare, sweep, agree, validate, stress", name));
 }
 
 /// The parser would read variables for the commands that are not carried out, too, into the same options.
@@ -339,7 +323,8 @@ std::optional<Options> parse_options(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 fine, 1 internal error, 2 usage, 3 scene, checkpoint or output file, 4 device,\n"
-      "5 results disagree or a verdict is unexpected, 6 unstable or not finite, 7 budget exceeded, 130 interrupted.\n"
+      "5 results disagree or a verdict is unexpected, 6 unstable or not finite, 7 budget exceeded, 130 interrupted, "
+      "143 terminated.\n"
       "Every option --some-name that takes a value has a variable SQUALL_SOME_NAME, and so have --quiet, --quick and "
       "--tune; the option wins, and the variable wins over the scene.");
   Options options;
@@ -349,6 +334,10 @@ std::optional<Options> parse_options(int argc, char** argv) {
   CLI::App* run = add_run(app, options, raw);
   CLI::App* compare = add_compare(app, options, raw);
   CLI::App* sweep = add_sweep(app, options, raw);
+  AgreeTexts agree_texts;
+  CLI::App* agree = add_agree(app, options, agree_texts);
+  add_output_options(*agree, options);
+  add_later_options(*agree);
   CLI::App* validate = add_validate(app, options, raw);
   CLI::App* stress = add_stress(app, options, raw);
   for (const char* name : k_later_commands)
@@ -364,15 +353,16 @@ std::optional<Options> parse_options(int argc, char** argv) {
   }
   for (const char* name : k_later_commands)
     if (app.got_subcommand(name)) throw UsageError(fmt::format("the command '{}' is not in this version", name));
-  const std::pair<CLI::App*, Command> commands[] = {{devices, Command::devices},   {run, Command::run},
-                                                    {compare, Command::compare},   {sweep, Command::sweep},
-                                                    {validate, Command::validate}, {stress, Command::stress}};
+  const std::pair<CLI::App*, Command> commands[] = {
+      {devices, Command::devices}, {run, Command::run},           {compare, Command::compare}, {sweep, Command::sweep},
+      {agree, Command::agree},     {validate, Command::validate}, {stress, Command::stress}};
   for (const auto& [command, name] : commands) {
     if (!*command) continue;
     options.command = name;
     if (name != Command::devices) refuse_later_options(*command);
     if (name == Command::compare || name == Command::sweep) refuse_later_checkpoints(*command);
   }
+  understand(agree_texts, options);
   understand(raw, options);
   settle_length(argc, argv, options);
   const auto is_flag = [&](const std::string& option) { return on_command_line(argc, argv, option); };

@@ -10,7 +10,7 @@
 
 namespace squall::app {
 
-enum class Command { devices, run, compare, sweep, validate, stress };
+enum class Command { devices, run, compare, sweep, agree, validate, stress };
 enum class Format { squall, google_benchmark };
 
 /// The command line and SQUALL_* variables, checked. Empty or absent: not given.
@@ -24,6 +24,7 @@ struct Options {
   std::string device;
   std::vector<int> threads;
   std::optional<Simd> simd;
+  std::vector<Simd> simds;  ///< agree: its --simd
   std::optional<Precision> precision;
   std::optional<Pressure> pressure;
   std::vector<Pressure> pressures;  ///< validate: only these

@@ -37,10 +37,23 @@ std::string what_is_missing(const cl::Device& device) {
   return "";
 }
 
-bool promises_bits(const cl::Device& device) {
-  constexpr cl_device_fp_config k_needed =
-      CL_FP_FMA | CL_FP_DENORM | CL_FP_ROUND_TO_NEAREST | CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
-  return (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & k_needed) == k_needed;
+struct Guarantee {
+  cl_device_fp_config bit;
+  const char* name;
+};
+/// What makes the bits of a sum of products the same everywhere.
+constexpr Guarantee k_guarantees[] = {
+    {CL_FP_FMA, "fused multiply-add"},
+    {CL_FP_DENORM, "denormals"},
+    {CL_FP_ROUND_TO_NEAREST, "rounding to nearest"},
+    {CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT, "correctly rounded division and square root"},
+};
+
+std::string lacking_guarantees(cl_device_fp_config config) {
+  std::string names;
+  for (const Guarantee& guarantee : k_guarantees)
+    if ((config & guarantee.bit) == 0) names += std::string(names.empty() ? "" : ", ") + guarantee.name;
+  return names;
 }
 
 /// Where a device computes in double precision, OpenCL demands all that the promise of bits rests on.
@@ -61,7 +74,8 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int 
     info.kind = kind_of(device.getInfo<CL_DEVICE_TYPE>());
     info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
     info.has_double = computes_in_double(device);
-    info.bitwise = promises_bits(device);
+    info.lacks = lacking_guarantees(device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>());
+    info.bitwise = info.lacks.empty();
     info.problem = what_is_missing(device);
   } catch (const cl::Error& error) {
     info.problem = device_error(error, info.name).what();

@@ -15,6 +15,7 @@ struct DeviceInfo {
   std::string kind;  ///< "cpu", "gpu", "accelerator"
   int compute_units = 0;
   std::string problem;     ///< why it cannot run; empty if it can
+  std::string lacks;       ///< guarantees without which it is not bitwise: "denormals, fused multiply-add"; else empty
   bool has_double = true;  ///< computes in double precision, too, and then always promises the same bits
   bool bitwise = true;     ///< in single precision: promises the same bits as the others (FMA, denormals, correctly
                            ///< rounded divide and sqrt)

@@ -97,6 +97,7 @@ Json to_json(const DeviceInfo& device) {
           {"compute_units", device.compute_units},
           {"double_precision", device.has_double},
           {"bitwise", device.bitwise},
+          {"lacks", device.lacks},
           {"problem", device.problem}};
 }
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/agree/trajectory.h"
+
+namespace squall::harness {
+
+/// How far two runs are apart in one number that does not follow single particles, beside how far runs are apart that
+/// began one rounding apart: water is chaotic, so every difference grows until only such numbers mean anything.
+struct ObservedDistance {
+  std::string what;       ///< "front_m": a name of Observation
+  double distance = 0.0;  ///< root mean square over the frames
+  double floor = 0.0;     ///< the largest such distance between two of the perturbed runs
+  bool within() const { return distance <= k_allowance * floor; }
+
+  /// The largest of some 15 distances between 6 like runs is exceeded by one more such run now and then; twice it
+  /// hardly ever.
+  static constexpr double k_allowance = 2.0;
+};
+
+/// Distances of `run` from the first of `ensemble`, whose members began one rounding apart.
+std::vector<ObservedDistance> observed_distances(const Trajectory& run, const std::vector<Trajectory>& ensemble);
+
+/// The state with every coordinate moved by one rounding of the container's size, this way or that as `member` (1, 2,
+/// ...) decides. Particles stay inside: where they touch a face the safety net does what it does in every run.
+State perturbed(const State& state, const Scene& scene, int member);
+
+}  // namespace squall::harness
