@@ -10,6 +10,7 @@ int command_run(const Options& options);
 int command_compare(const Options& options);
 int command_sweep(const Options& options);
 int command_agree(const Options& options);
+int command_study(const Options& options);
 int command_validate(const Options& options);
 int command_stress(const Options& options);
 

@@ -24,6 +24,8 @@ int run_command(const Options& options) {
       return command_sweep(options);
     case Command::agree:
       return command_agree(options);
+    case Command::study:
+      return command_study(options);
     case Command::validate:
       return command_validate(options);
     case Command::stress:

@@ -15,6 +15,7 @@
 #include "app/exit_codes.h"
 #include "app/notes.h"
 #include "app/option_adding.h"
+#include "app/study_options.h"
 #include "build_info.h"
 #include "core/scene_keys.h"
 
@@ -26,9 +27,10 @@ namespace {
 struct Raw {
   std::vector<std::string> backends, readbacks, pressures;
   std::string simd, precision, pressure, format = "squall";
+  RawStudyOptions study;
 };
 
-constexpr const char* k_later_commands[] = {"study", "cost", "view"};
+constexpr const char* k_later_commands[] = {"cost", "view"};
 constexpr const char* k_later_options[] = {"--fast-math", "--tolerance", "--max-error"};
 constexpr const char* k_checkpoint_options[] = {"--checkpoint", "--checkpoint-every", "--restart"};
 
@@ -247,6 +249,39 @@ CLI::App* add_stress(CLI::App& app, Options& options, Raw& raw) {
   return stress;
 }
 
+CLI::App* add_study(CLI::App& app, Options& options, Raw& raw) {
+  CLI::App* study = app.add_subcommand("study", "Speed against error: which settings are worth their time");
+  study->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  list(add(*study, "--pressure", raw.pressures, "Only these solvers: mueller, wcsph, dfsph (all)"), "NAME[,NAME]");
+  add_particles(*study, options);
+  list(add(*study, "--backend", raw.backends, "The first is the base, the others stand beside it (omp, opencl)"),
+       "NAME[,NAME]");
+  add(*study, "--device", options.device, "OpenCL device: index or part of its name in `squall devices`")
+      ->type_name("DEVICE");
+  add(*study, "--threads", options.threads, "Threads, or compute units of a CPU device; else all")
+      ->expected(1)
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  add(*study, "--simd", raw.simd, "scalar, avx2 or avx512; else the widest there is, and by device")->type_name("NAME");
+  add_length_options(*study, options);
+  add(*study, "--dt-max", options.dt_max_s, "Longest sub-step [s] of the base; else the scene's")
+      ->check(within(1e-7, 1.0))
+      ->type_name("S");
+  add(*study, "--seed", options.seed, "Of the rain (1)")->check(unsigned_number())->type_name("N");
+  add_study_options(*study, raw.study);
+  add(*study, "--budget-ms", options.budget_ms,
+      "Recommend the most accurate setting whose 95th percentile of frame time keeps this; exit 7 if none does")
+      ->check(positive())
+      ->type_name("F");
+  add(*study, "--out", options.out,
+      "Folder for report.html, plots (gnuplot), study.csv, study.json, scenes, and the runs that a later start goes on "
+      "from")
+      ->type_name("DIR");
+  add_output_options(*study, options);
+  add_later_options(*study);
+  return study;
+}
+
 bool on_command_line(int argc, char** argv, const std::string& name) {
   return std::any_of(argv, argv + argc,
                      [&](const std::string& text) { return text == name || text.rfind(name + "=", 0) == 0; });
@@ -279,6 +314,7 @@ void understand(const Raw& raw, Options& options) {
   if (!raw.simd.empty()) options.simd = parse_simd(raw.simd);
   if (!raw.precision.empty()) options.precision = parse_precision(raw.precision);
   if (!raw.pressure.empty()) options.pressure = parse_pressure(raw.pressure);
+  options.study = understand(raw.study);
   if (raw.format == "google-benchmark")
     options.format = Format::google_benchmark;
   else if (raw.format != "squall")
@@ -300,12 +336,12 @@ void understand(const Raw& raw, Options& options) {
 /// The parser would only say that a command is required.
 void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2)
-    throw UsageError("a command is missing; there are devices, run, compare, sweep, agree, validate, stress");
+    throw UsageError("a command is missing; there are devices, run, compare, sweep, agree, study, validate, stress");
   const std::string name = argv[1];
   const auto commands = app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
   if (name.rfind('-', 0) != 0 && commands.empty())
     throw UsageError(fmt::format(
-        "the command '{}' is unknown; there are devices, run, compare, sweep, agree, validate, stress", name));
+        "the command '{}' is unknown; there are devices, run, compare, sweep, agree, study, validate, stress", name));
 }
 
 /// The parser would read variables for the commands that are not carried out, too, into the same options.
@@ -338,6 +374,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
   CLI::App* agree = add_agree(app, options, agree_texts);
   add_output_options(*agree, options);
   add_later_options(*agree);
+  CLI::App* study = add_study(app, options, raw);
   CLI::App* validate = add_validate(app, options, raw);
   CLI::App* stress = add_stress(app, options, raw);
   for (const char* name : k_later_commands)
@@ -354,8 +391,8 @@ std::optional<Options> parse_options(int argc, char** argv) {
   for (const char* name : k_later_commands)
     if (app.got_subcommand(name)) throw UsageError(fmt::format("the command '{}' is not in this version", name));
   const std::pair<CLI::App*, Command> commands[] = {
-      {devices, Command::devices}, {run, Command::run},           {compare, Command::compare}, {sweep, Command::sweep},
-      {agree, Command::agree},     {validate, Command::validate}, {stress, Command::stress}};
+      {devices, Command::devices}, {run, Command::run},     {compare, Command::compare},   {sweep, Command::sweep},
+      {agree, Command::agree},     {study, Command::study}, {validate, Command::validate}, {stress, Command::stress}};
   for (const auto& [command, name] : commands) {
     if (!*command) continue;
     options.command = name;

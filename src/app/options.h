@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "app/study_options.h"
 #include "core/scene.h"
 #include "core/settings.h"
 
 namespace squall::app {
 
-enum class Command { devices, run, compare, sweep, agree, validate, stress };
+enum class Command { devices, run, compare, sweep, agree, study, validate, stress };
 enum class Format { squall, google_benchmark };
 
 /// The command line and SQUALL_* variables, checked. Empty or absent: not given.
@@ -27,7 +28,7 @@ struct Options {
   std::vector<Simd> simds;  ///< agree: its --simd
   std::optional<Precision> precision;
   std::optional<Pressure> pressure;
-  std::vector<Pressure> pressures;  ///< validate: only these
+  std::vector<Pressure> pressures;  ///< validate, stress, study: only these
   std::vector<Readback> readbacks;
   std::optional<std::int64_t> particles;
   std::vector<std::int64_t> sizes;  ///< sweep: its --particles
@@ -51,6 +52,7 @@ struct Options {
   bool quick = false;             ///< validate, stress: coarser scenes, shorter runs
   bool list = false;              ///< validate: says what there is
   std::vector<int> case_numbers;  ///< stress; empty: all
+  StudyOptions study;
 
   bool json_alone() const { return json == "-"; }  ///< stdout holds the JSON and nothing else
 };
