@@ -13,6 +13,7 @@
 
 #include "backend_opencl/passes.h"
 #include "backend_opencl/program.h"
+#include "core/precision.h"
 #include "grid.h"
 #include "sort_bins.h"
 
@@ -90,7 +91,7 @@ Input mixed(std::size_t count) {
   return input;
 }
 
-int key(const Params<double>& p, const Input& input, std::size_t i) {
+int key(const Params<float>& p, const Input& input, std::size_t i) {
   const Record& record = input.records[i];
   if (is_lost(record.x)) return lost_cell(&p);
   return input.ids[i] < input.held_until ? held_cell(&p) : cell_of(&p, record.x, record.y, record.z);
@@ -115,6 +116,12 @@ const Way k_chunks{"chunks", Simd::avx2};
 
 void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 
+Settings wcsph() {
+  Settings settings;
+  settings.pressure = Pressure::wcsph;
+  return settings;
+}
+
 /// A machine with everything a sort needs.
 class SortBench {
  public:
@@ -127,9 +134,8 @@ class SortBench {
     layout_.work.chunks = way.chunks;
     shape_ = make_shape(machine_, layout_);
     buffers_ = make_buffers(machine_, layout_, shape_, false);
-    const cl::Program program =
-        build_program(machine_.context, machine_.device, embedded_kernels(),
-                      build_options(Scene{}, Pressure::wcsph, machine_.rounds_correctly, shape_.lanes));
+    const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(),
+                                              build_options(Scene{}, wcsph(), machine_.rounds_correctly, shape_.lanes));
     Substep<float> substep{};
     substep.held_count = 1;
     machine_.queue.enqueueWriteBuffer(buffers_.substeps, CL_TRUE, 0, sizeof substep, &substep);
@@ -152,7 +158,8 @@ class SortBench {
     const auto starts = read<int>(machine_.queue, buffers_.cell_start, cells + 1);
     std::vector<std::size_t> order(count());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto key_of = [&](std::size_t i) { return key(layout_.params, input_, i); };
+    const auto params = in_precision<float>(layout_.params);
+    const auto key_of = [&](std::size_t i) { return key(params, input_, i); };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key_of(a) < key_of(b); });
     std::vector<int> expected_starts(cells + 3, 0);
     for (std::size_t i = 0; i < count(); ++i) {

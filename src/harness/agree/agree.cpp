@@ -207,7 +207,7 @@ Verdict Agreeing::hand_over(Solver& solver, bool strict, std::vector<std::string
   if (!strict || !giver_->plan.strict) {
     reference_->restore(middle);
     const FrameReport& report = reference_->advance(Delivery::nothing);
-    const double allowed = rounding_tolerance_dx(scene(), report.substeps);
+    const double allowed = rounding_tolerance_dx(scene(), report.substeps, Precision::single_precision);
     const auto apart = distance_between(reference_->state().particles, tail.states.front(), scene().fluid.spacing_m);
     if (apart.max_dx <= allowed) verdict = Verdict::within;
   }

@@ -90,7 +90,8 @@ void judge_run(const Oracle& oracle, const Trajectory& run, const Scene& scene, 
   result.growth = growth_between(oracle.run, run, scene.fluid.spacing_m);
   if (result.subject.plan.strict || result.growth.empty()) return;
   const double allowed = rounding_tolerance_dx(
-      scene, static_cast<int>(oracle.run.substeps / std::max<std::int64_t>(1, std::ssize(oracle.run.hashes))) + 1);
+      scene, static_cast<int>(oracle.run.substeps / std::max<std::int64_t>(1, std::ssize(oracle.run.hashes))) + 1,
+      Precision::single_precision);
   if (result.growth.front().max_dx <= allowed)
     result.bits = Verdict::within;
   else
