@@ -22,7 +22,7 @@ __kernel void sort_bin_starts(__global int4* counts, __global const int* tiles, 
     start.z = start.y + members.y;
     start.w = start.z + members.z;
     next = start.w + members.w;
-    starts[k] = start;
+    vstore4(start, k, (__global int*)starts); /* stored as a vector it looks uninitialised to Oclgrind */
     counts[k] = (int4)(0);
   }
 }

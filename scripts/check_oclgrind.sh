@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # check_oclgrind.sh SQUALL SCENE: a frame of the scene, after two to warm up, on the opencl backend under Oclgrind, a
-# simulator of a device that reports out-of-bounds accesses, data races and uninitialised values. It exits 0 whatever it finds, so an empty log
-# is what counts. Its compiler needs -O1. It takes what the host writes into the middle of a buffer, as appended drops
-# are, for uninitialised: that check runs on the scene without its rain (which stands last in the file).
+# simulator of a device that reports out-of-bounds accesses, data races and uninitialised values. It exits 0 whatever it
+# finds, so an empty stderr is what counts; not its --log, which every context begins anew, and a run has two. Its compiler
+# needs -O1. It takes what the host writes into the middle of a buffer, as appended drops are, for uninitialised: that check
+# runs on the scene without its rain (which stands last in the file).
 # Every kernel of kernels/*.cl must have run, or the scene is too small.
 set -euo pipefail
 squall=$1
@@ -15,13 +16,25 @@ command -v oclgrind >/dev/null || {
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
+# Its check of uninitialised values does not know the instruction freeze, which its compiler makes of summary in programs
+# with blocks; what it says of these is left out, in that check alone.
+known() {  # known SIMD OPTIONS
+  if [[ $1 = avx2 && $2 = *--uninitialized* ]]; then
+    awk 'BEGIN { RS = "" } !/Unsupported instruction: freeze/ && !/Kernel: summary/'
+  else
+    cat
+  fi
+}
+echo "left out: uninitialised values in summary beside blocks of eight: Oclgrind 21.10 does not know its instruction freeze"
+
 check() {  # check SCENE PRESSURE SIMD READBACK PRECISION OPTION...: kernels of one solver and width, and one read-back mode
   local scene=$1 pressure=$2 simd=$3 readback=$4 precision=$5
   shift 5
   echo "$pressure, $simd, $readback, $precision, $*"
-  oclgrind --log "$out/log" --build-options -O1 --max-errors 20 "$@" \
+  oclgrind --build-options -O1 --max-errors 100000 "$@" \
     "$squall" run "$scene" --pressure "$pressure" --backend opencl --simd "$simd" --precision "$precision" \
-    --readback "$readback" --frames 1 --quiet --json "$out/run.json" --trace "$out/trace.json" >/dev/null
+    --readback "$readback" --frames 1 --quiet --json "$out/run.json" --trace "$out/trace.json" >/dev/null 2>"$out/said"
+  known "$simd" "$*" <"$out/said" >"$out/log"
   python3 - "$out/run.json" <<'PYTHON'
 import json, sys
 run = json.load(open(sys.argv[1]))["runs"][0]
