@@ -98,7 +98,6 @@ TEST(Usage, AFlagBeatsAVariableThatContradictsIt) {
                                                                 {"SQUALL_READBACK", "none", {"--backend", "omp"}},
                                                                 {"SQUALL_THREADS", "2", {"--backend", "reference"}},
                                                                 {"SQUALL_SIMD", "scalar", {"--backend", "reference"}},
-                                                                {"SQUALL_PRECISION", "double", {"--backend", "omp"}},
                                                                 {"SQUALL_BACKEND", "omp", {"--device", "0"}},
                                                                 {"SQUALL_BACKEND", "reference", {"--threads", "2"}}}) {
     std::vector<std::string> arguments{"run", k_tiny, "--frames", "1"};
