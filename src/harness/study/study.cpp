@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "core/errors.h"
 #include "core/frame_plan.h"
@@ -136,7 +137,7 @@ class Student {
   const Record* carry_out(const StudyRun& run, const std::string& name, double work) {
     const std::string key = key_of(run, context_);
     if (const Record* known = records_.find(key)) {
-      ++result_.reused;
+      if (counted_.insert(key).second) ++result_.reused;
       forget(work);
       return known;
     }
@@ -150,6 +151,7 @@ class Student {
     work_done_ += work;
     work_left_ -= work;
     records_.add(std::move(*record));
+    counted_.insert(key);
     return records_.find(key);
   }
 
@@ -173,6 +175,7 @@ class Student {
   StudyRecords& records_;
   const AfterStudyFrame& after_frame_;
   StudyRuns result_;
+  std::set<std::string> counted_;  ///< keys of runs that were reused or made: one may serve twice
   double work_total_ = 0.0, work_left_ = 0.0, work_done_ = 0.0, spent_s_ = 0.0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "harness/study/observables.h"
 #include "harness/study/study_report.h"
@@ -29,8 +30,29 @@ Series points_only(const std::string& name, const std::string& colour) {
   return series;
 }
 
+/// Which points have room for their name beside them: those of the front first. Places in logarithms, as they are
+/// drawn.
+std::vector<bool> with_names(const StudyResult& result) {
+  constexpr double k_width = 0.6, k_height = 0.12;  // of a name, in factors of e^(...) at the usual ranges
+  std::vector<bool> named(result.findings.points.size(), false);
+  std::vector<std::pair<double, double>> taken;
+  for (const bool front : {true, false})
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      const ErrorFinding* error = result.ranked_error(i);
+      const auto& point = result.findings.points[i];
+      if (error == nullptr || point.on_front != front || !(error->ranked() > 0.0) || !(point.cost > 0.0)) continue;
+      const double x = std::log(point.cost), y = std::log(error->ranked());
+      named[i] = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
+        return std::abs(other.first - x) < k_width && std::abs(other.second - y) < k_height;
+      });
+      if (named[i]) taken.emplace_back(x, y);
+    }
+  return named;
+}
+
 /// Settings of each solver as points, those of the base model's steps joined.
 void add_settings(const StudyResult& result, Plot& plot) {
+  const auto named = with_names(result);
   for (const Pressure pressure : result.subjects.pressures) {
     Series steps{to_string(pressure), {}, colour_of(pressure)};
     Series others = points_only("", colour_of(pressure));
@@ -39,7 +61,7 @@ void add_settings(const StudyResult& result, Plot& plot) {
       const ErrorFinding* error = result.ranked_error(i);
       if (error == nullptr || point.run.plan.settings.pressure != pressure) continue;
       const bool is_step = point.axis == StudyAxis::step;
-      Sample sample{result.findings.points[i].cost, error->ranked(), {}, {}, short_name(point.name)};
+      Sample sample{result.findings.points[i].cost, error->ranked(), {}, {}, named[i] ? short_name(point.name) : ""};
       (is_step ? steps : others).samples.push_back(std::move(sample));
     }
     plot.series.push_back(std::move(steps));
@@ -76,13 +98,17 @@ void add_unstable(const StudyResult& result, Plot& plot) {
   plot.series.push_back(std::move(unstable));
 }
 
-/// The smallest and the largest floor there is: points on them are no better than chance.
+/// The lowest floor there is, where it is near enough to the points to say something.
 void add_floor(const StudyResult& result, Plot& plot) {
+  constexpr double k_near = 30.0;
+  double lowest = k_no_end;
+  for (const auto& series : plot.series)
+    for (const auto& sample : series.samples) lowest = std::min(lowest, sample.y);
   std::optional<double> low;
   for (std::size_t i = 0; i < result.findings.points.size(); ++i)
     if (const ErrorFinding* error = result.ranked_error(i); error != nullptr && error->floor && *error->floor > 0.0)
       low = low ? std::min(*low, *error->floor) : *error->floor;
-  if (low) plot.marks.push_back({"lowest noise floor", *low});
+  if (low && k_near * *low >= lowest) plot.marks.push_back({"lowest noise floor", *low});
   if (result.question.max_error) plot.marks.push_back({"largest error asked for", *result.question.max_error});
 }
 
@@ -105,7 +131,7 @@ Plot step_errors(const StudyResult& result) {
   plot.name = "step_error";
   plot.title = result.scene.name + ": error of the step against the step";
   plot.x = {"mean sub-step [ms]", true};
-  plot.y = {fmt::format("{} error against the same model with 1/8 of the finest step", result.question.error), true};
+  plot.y = {fmt::format("{} error against 1/8 of the finest step", result.question.error), true};
   for (std::size_t m = 0; m < result.runs.points.models.size(); ++m) {
     const StudyModel& model = result.runs.points.models[m];
     if (!model.is_base) continue;

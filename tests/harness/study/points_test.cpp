@@ -60,7 +60,7 @@ TEST(StudyPoints, AReferenceHasAnEighthOfTheFinestStep) {
   const StudyRun run = reference_run(subjects, points, 0, 1.6e-3, 20);
   EXPECT_DOUBLE_EQ(run.scene.solver.dt_max_s, 2e-4);
   EXPECT_DOUBLE_EQ(run.scene.solver.cfl, 0.4 * 0.5 / 8.0);
-  EXPECT_DOUBLE_EQ(run.scene.solver.density_tolerance, 1e-4);
+  EXPECT_DOUBLE_EQ(run.scene.solver.density_tolerance, 1e-6);
   EXPECT_EQ(run.plan.settings.precision, Precision::double_precision);
   EXPECT_EQ(run.every, 1);
   EXPECT_EQ(run.plan.frames, 6);
@@ -85,7 +85,7 @@ TEST(StudyPoints, SmoothingStaysTheSameViscosity) {
   const double rounding = 1e-14 * viscosity;
   for (const auto& point : points.points)
     EXPECT_NEAR(smoothing_viscosity(point.run.scene, Pressure::dfsph), viscosity, rounding) << point.name;
-  const StudyRun reference = reference_run(subjects, points, 0, 1e-4, 20);
+  const StudyRun reference = reference_run(subjects, points, 0, 1.0 / (30.0 * 20.0), 20);
   EXPECT_NEAR(smoothing_viscosity(reference.scene, Pressure::dfsph), viscosity, rounding);
 }
 
