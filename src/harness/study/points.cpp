@@ -172,27 +172,28 @@ StudyPoints make_points(const StudySubjects& subjects) { return PointMaker(subje
 StudyRun reference_run(const StudySubjects& subjects, const StudyPoints& points, std::size_t model, double finest_dt_s,
                        int most_substeps) {
   constexpr double k_eighth = 0.125;
-  // What a solve leaves is density; the pressure it stands for goes with 1/dt^2, so a tenth would not do.
-  constexpr double k_tolerance = 1e-3;
+  // What a solve leaves is density; the pressure it stands for goes with 1/dt^2. Nothing that a scene may say is too
+  // tight.
+  constexpr double k_tightest = 1e-7;
+  constexpr int k_iterations = 1000;
   constexpr int k_substeps = 400;  // of a frame: room for water that is faster than the points found it
   const StudyModel& of = points.models[model];
-  double step = 1.0, tolerance = 1.0;
+  double step = 1.0;
   for (const auto& point : points.points) {
-    if (point.model != model) continue;
-    step = std::min(step, point.step_factor);
-    tolerance = std::min(tolerance, point.tolerance_factor);
+    if (point.model == model) step = std::min(step, point.step_factor);
   }
   StudyRun run;
   run.plan = subjects.double_plan;
   run.plan.settings.pressure = of.pressure;
-  run.scene = with_factors(of.scene, k_eighth * step, k_tolerance * tolerance);
+  run.scene = with_factors(of.scene, k_eighth * step, 1.0);
   auto& solver = run.scene.solver;
   const double viscosity_kept = solver.xsph / solver.dt_max_s;
   solver.dt_max_s = std::min(solver.dt_max_s, k_eighth * finest_dt_s);
   solver.xsph = viscosity_kept * solver.dt_max_s;
-  solver.density_tolerance = std::max(solver.density_tolerance, 1e-7);
-  solver.divergence_tolerance = std::max(solver.divergence_tolerance, 1e-7);
-  solver.max_iterations = std::max(solver.max_iterations, 1000);
+  if (of.pressure == Pressure::dfsph) {
+    solver.density_tolerance = solver.divergence_tolerance = k_tightest;
+    solver.max_iterations = std::max(solver.max_iterations, k_iterations);
+  }
   run.every = std::max(1, static_cast<int>(std::ceil(8.0 * most_substeps / k_substeps)));
   run.scene.time.frame_rate_hz *= run.every;
   run.plan.frames *= run.every;

@@ -67,9 +67,9 @@ struct StudyPoints {
 /// The settings to measure. What a scene cannot be changed to is left out with a note.
 StudyPoints make_points(const StudySubjects& subjects);
 
-/// The model's reference: double, tolerances a thousandth of the tightest, every sub-step at most an eighth of
-/// `finest_dt_s`, the smallest that a point of the model took; `most_substeps` is the most that such a point took in a
-/// frame: frames become shorter by a whole number where an eighth would not fit into them.
+/// The model's reference: double, dfsph's tolerances as tight as a scene may have them, every sub-step at most an
+/// eighth of `finest_dt_s`, the smallest that a point of the model took; `most_substeps` is the most that such a point
+/// took in a frame: frames become shorter by a whole number where an eighth would not fit into them.
 StudyRun reference_run(const StudySubjects& subjects, const StudyPoints& points, std::size_t model, double finest_dt_s,
                        int most_substeps);
 

@@ -72,8 +72,8 @@ void add_definitions(const StudyResult& result, HtmlReport& page) {
         "through the depth, pressure over that of the depth."},
        {"combined", "The root mean square of the errors of " + combined + "."},
        {"reference",
-        "The same pressure solver, spacing and support ratio in double, tolerances a thousandth of the "
-        "tightest, sub-steps at most an eighth of the finest of its points."},
+        "The same pressure solver, spacing and support ratio in double, dfsph with tolerances of 1e-7, sub-steps at "
+        "most an eighth of the finest of its points."},
        {"total error", "Against the yardstick, one reference for all: " + yardstick +
                            ". What solver, spacing and support ratio change is in it. density_error_mean needs no "
                            "reference: water is not compressed."},

@@ -60,7 +60,7 @@ TEST(StudyPoints, AReferenceHasAnEighthOfTheFinestStep) {
   const StudyRun run = reference_run(subjects, points, 0, 1.6e-3, 20);
   EXPECT_DOUBLE_EQ(run.scene.solver.dt_max_s, 2e-4);
   EXPECT_DOUBLE_EQ(run.scene.solver.cfl, 0.4 * 0.5 / 8.0);
-  EXPECT_DOUBLE_EQ(run.scene.solver.density_tolerance, 1e-6);
+  EXPECT_DOUBLE_EQ(run.scene.solver.density_tolerance, 1e-7);
   EXPECT_EQ(run.plan.settings.precision, Precision::double_precision);
   EXPECT_EQ(run.every, 1);
   EXPECT_EQ(run.plan.frames, 6);
