@@ -8,12 +8,12 @@ run_packages=(
   opencl-clhpp-headers opencl-c-headers ocl-icd-opencl-dev pocl-opencl-icd
   nlohmann-json3-dev libcli11-dev libfmt-dev gnuplot-nox
 )
-# To test it: clang-15 checks the kernels' syntax for devices that are not here.
-test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-15 python3)
+# To test it: clang-15 checks the kernels' syntax for devices that are not here, Oclgrind simulates one.
+test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-15 oclgrind python3)
 
 # For scripts/check.sh: clang with its sanitizers, its fuzzer and its OpenMP, whose archer tells ThreadSanitizer what OpenMP
-# orders; Oclgrind watches kernels run. clang-tidy is nightly.sh's.
-check_packages=("${test_packages[@]}" oclgrind clang-14 clang-format-14 libclang-rt-14-dev llvm-14 libomp-14-dev)
+# orders. clang-tidy is nightly.sh's.
+check_packages=("${test_packages[@]}" clang-14 clang-format-14 libclang-rt-14-dev llvm-14 libomp-14-dev)
 nightly_packages=("${check_packages[@]}" clang-tidy-14)
 
 # To measure it: Google Benchmark, and python3 for the table.
