@@ -24,7 +24,7 @@ constexpr KeyRule optional(double low, double high) { return {false, low, high};
 constexpr KeyRule required_text() { return {true, 0.0, 0.0}; }
 constexpr KeyRule optional_choice() { return {false, 0.0, 0.0}; }
 
-inline constexpr double k_reach_m = 1000.0;   ///< coordinates and displacements
+inline constexpr double k_reach_m = 1e5;      ///< coordinates and displacements
 inline constexpr double k_latest_s = 1e6;     ///< points in time
 inline constexpr double k_fastest_m_s = 1e3;  ///< start velocities
 inline constexpr double k_strongest_m_s2 = 1e3;
