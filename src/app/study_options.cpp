@@ -55,7 +55,7 @@ void add_study_options(CLI::App& command, RawStudyOptions& raw) {
       ->check(not_empty())
       ->check(CLI::Range(0, 100))
       ->type_name("N");
-  command.add_option("--repeats", raw.repeats, "Times that every setting is timed (1; full: 3)")
+  command.add_option("--repeats", raw.repeats, "Times that every setting is timed (3; full: 5)")
       ->envname("SQUALL_REPEATS")
       ->check(not_empty())
       ->check(CLI::Range(1, 100))

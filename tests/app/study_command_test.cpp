@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 const std::vector<std::string> k_study{"study",  k_tiny, "--pressure", "wcsph", "--backend",   "omp", "--threads", "1",
-                                       "--vary", "step", "--frames",   "6",     "--perturbed", "1"};
+                                       "--vary", "step", "--frames",   "6",     "--perturbed", "1",   "--repeats", "1"};
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());

@@ -161,10 +161,10 @@ const char* to_string(StudyAxis axis) {
   return "";
 }
 
-StudyRanges quick_ranges() { return {{2.0, 1.0, 0.5}, {10.0}, {1.7}, {0.25}, {1.0}, 3, 1}; }
+StudyRanges quick_ranges() { return {{2.0, 1.0, 0.5}, {10.0}, {1.7}, {0.25}, {1.0}, 3, 3}; }
 
 StudyRanges full_ranges() {
-  return {{4.0, 2.0, 1.0, 0.5, 0.25}, {10.0, 0.1}, {1.6, 1.8, 2.2}, {0.5, 0.25}, {2.0, 1.0}, 5, 3};
+  return {{4.0, 2.0, 1.0, 0.5, 0.25}, {10.0, 0.1}, {1.6, 1.8, 2.2}, {0.5, 0.25}, {2.0, 1.0}, 5, 5};
 }
 
 StudyPoints make_points(const StudySubjects& subjects) { return PointMaker(subjects).make(); }

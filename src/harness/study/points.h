@@ -24,7 +24,7 @@ struct StudyRanges {
   std::vector<double> spacing;             ///< of the number of particles
   std::vector<double> spacing_steps{1.0};  ///< step factors at each of these
   int perturbed = 3;                       ///< perturbed starts of each model
-  int repeats = 1;                         ///< times that each point is timed
+  int repeats = 3;                         ///< times that each point is timed
 };
 StudyRanges quick_ranges();
 StudyRanges full_ranges();

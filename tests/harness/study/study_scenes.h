@@ -44,6 +44,7 @@ inline StudySubjects small_study(Pressure pressure, const std::vector<StudyAxis>
   subjects.axes = axes;
   subjects.ranges = quick_ranges();
   subjects.ranges.perturbed = 2;
+  subjects.ranges.repeats = 1;
   return subjects;
 }
 
