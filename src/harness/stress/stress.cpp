@@ -56,7 +56,7 @@ bool refused_by_nan(double value, double limit) { return std::isnan(value) || st
 
 }  // namespace
 
-bool Finding::holds() const {
+bool StressFinding::holds() const {
   switch (relation) {
     case Relation::at_most:
       return !refused_by_nan(value, limit) && value <= limit;
@@ -71,21 +71,21 @@ bool Finding::holds() const {
 }
 
 void StressOutcome::at_most(std::string what, double value, double limit) {
-  findings.push_back({std::move(what), value, Finding::Relation::at_most, limit});
+  findings.push_back({std::move(what), value, StressFinding::Relation::at_most, limit});
 }
 void StressOutcome::at_least(std::string what, double value, double limit) {
-  findings.push_back({std::move(what), value, Finding::Relation::at_least, limit});
+  findings.push_back({std::move(what), value, StressFinding::Relation::at_least, limit});
 }
 void StressOutcome::equal(std::string what, double value, double limit) {
-  findings.push_back({std::move(what), value, Finding::Relation::equal, limit});
+  findings.push_back({std::move(what), value, StressFinding::Relation::equal, limit});
 }
 void StressOutcome::information(std::string what, double value) {
-  findings.push_back({std::move(what), value, Finding::Relation::information, 0.0});
+  findings.push_back({std::move(what), value, StressFinding::Relation::information, 0.0});
 }
 
 bool StressOutcome::holds() const {
   return error.empty() &&
-         std::all_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.holds(); });
+         std::all_of(findings.begin(), findings.end(), [](const StressFinding& finding) { return finding.holds(); });
 }
 
 std::span<const StressCase> stress_cases() { return k_cases; }
@@ -108,7 +108,7 @@ const char* to_string(StressVerdict verdict) {
 
 namespace {
 
-bool covers(const KnownFailure& known, const StressResult& result, const Finding& finding) {
+bool covers(const KnownStressFailure& known, const StressResult& result, const StressFinding& finding) {
   return known.number == result.tried->number && known.pressure == result.subject.settings.pressure &&
          finding.what.rfind(known.finding, 0) == 0;
 }
@@ -118,14 +118,14 @@ StressVerdict judge(StressResult& result) {
   const auto& findings = result.outcome.findings;
   if (!result.outcome.not_applicable.empty()) return StressVerdict::not_applicable;
   bool unknown = !result.outcome.error.empty(), out_of_date = false;
-  for (const Finding& finding : findings) {
+  for (const StressFinding& finding : findings) {
     const bool known = std::any_of(known_failures().begin(), known_failures().end(),
                                    [&](const auto& entry) { return covers(entry, result, finding); });
     unknown = unknown || (!finding.holds() && !known);
   }
-  for (const KnownFailure& known : known_failures()) {
+  for (const KnownStressFailure& known : known_failures()) {
     if (known.number != result.tried->number || known.pressure != result.subject.settings.pressure) continue;
-    const bool met = std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+    const bool met = std::any_of(findings.begin(), findings.end(), [&](const StressFinding& finding) {
       return !finding.holds() && covers(known, result, finding);
     });
     if (met && result.why.find(known.why) == std::string::npos)

@@ -25,7 +25,7 @@ struct StressSubject {
 };
 
 /// One number that a case measured and what it has to be.
-struct Finding {
+struct StressFinding {
   enum class Relation { at_most, at_least, equal, information };
   std::string what;  ///< with its unit: "fastest particle [m/s]"
   double value = 0.0;
@@ -37,7 +37,7 @@ struct Finding {
 
 /// What a case found out about a subject.
 struct StressOutcome {
-  std::vector<Finding> findings;
+  std::vector<StressFinding> findings;
   std::string not_applicable;  ///< why there is nothing to try; empty if it was tried
   std::string error;           ///< of what() where the solver gave up although it must not
 
@@ -63,13 +63,13 @@ struct StressCase {
 std::span<const StressCase> stress_cases();
 
 /// A finding that is known to fail in a pressure solver, and why (docs/stress.md).
-struct KnownFailure {
+struct KnownStressFailure {
   int number = 0;
   Pressure pressure = Pressure::wcsph;
   const char* finding = "";  ///< how its text begins; empty: any of the case
   const char* why = "";
 };
-std::span<const KnownFailure> known_failures();
+std::span<const KnownStressFailure> known_failures();
 
 enum class StressVerdict {
   passed,

@@ -8,15 +8,15 @@ namespace squall::harness {
 
 namespace {
 
-const char* relation_name(Finding::Relation relation) {
+const char* relation_name(StressFinding::Relation relation) {
   switch (relation) {
-    case Finding::Relation::at_most:
+    case StressFinding::Relation::at_most:
       return "at_most";
-    case Finding::Relation::at_least:
+    case StressFinding::Relation::at_least:
       return "at_least";
-    case Finding::Relation::equal:
+    case StressFinding::Relation::equal:
       return "equal";
-    case Finding::Relation::information:
+    case StressFinding::Relation::information:
       break;
   }
   return "information";
@@ -24,9 +24,9 @@ const char* relation_name(Finding::Relation relation) {
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json finding_json(const Finding& finding) {
+Json finding_json(const StressFinding& finding) {
   Json json{{"what", finding.what}, {"value", number(finding.value)}, {"relation", relation_name(finding.relation)}};
-  if (finding.relation != Finding::Relation::information) {
+  if (finding.relation != StressFinding::Relation::information) {
     json["limit"] = number(finding.limit);
     json["holds"] = finding.holds();
   }
@@ -49,7 +49,7 @@ Json result_json(const StressResult& result) {
   if (!result.outcome.not_applicable.empty()) json["not_applicable"] = result.outcome.not_applicable;
   if (!result.outcome.error.empty()) json["error"] = result.outcome.error;
   json["findings"] = Json::array();
-  for (const Finding& finding : result.outcome.findings) json["findings"].push_back(finding_json(finding));
+  for (const StressFinding& finding : result.outcome.findings) json["findings"].push_back(finding_json(finding));
   return json;
 }
 
@@ -65,16 +65,16 @@ Json to_json(const Context& context, bool quick, const std::vector<StressResult>
   return json;
 }
 
-std::string finding_text(const Finding& finding) {
+std::string finding_text(const StressFinding& finding) {
   const std::string text = fmt::format("{}: {:.4g}", finding.what, finding.value);
   switch (finding.relation) {
-    case Finding::Relation::at_most:
+    case StressFinding::Relation::at_most:
       return fmt::format("{} (at most {:.4g})", text, finding.limit);
-    case Finding::Relation::at_least:
+    case StressFinding::Relation::at_least:
       return fmt::format("{} (at least {:.4g})", text, finding.limit);
-    case Finding::Relation::equal:
+    case StressFinding::Relation::equal:
       return fmt::format("{} (exactly {:.4g})", text, finding.limit);
-    case Finding::Relation::information:
+    case StressFinding::Relation::information:
       break;
   }
   return text;

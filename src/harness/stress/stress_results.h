@@ -13,6 +13,6 @@ namespace squall::harness {
 Json to_json(const Context& context, bool quick, const std::vector<StressResult>& results);
 
 /// "largest over-density: 0.0415 (at most 0.01)".
-std::string finding_text(const Finding& finding);
+std::string finding_text(const StressFinding& finding);
 
 }  // namespace squall::harness

@@ -46,14 +46,15 @@ TEST(Stress, HasEveryCaseOnce) {
 
 TEST(Stress, FindingsHoldOrNot) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE((Finding{"", 1.0, Finding::Relation::at_most, 1.0}.holds()));
-  EXPECT_FALSE((Finding{"", 1.1, Finding::Relation::at_most, 1.0}.holds()));
-  EXPECT_TRUE((Finding{"", 1.0, Finding::Relation::at_least, 1.0}.holds()));
-  EXPECT_FALSE((Finding{"", 0.9, Finding::Relation::at_least, 1.0}.holds()));
-  EXPECT_FALSE((Finding{"", 0.9, Finding::Relation::equal, 1.0}.holds()));
-  for (const auto relation : {Finding::Relation::at_most, Finding::Relation::at_least, Finding::Relation::equal})
-    EXPECT_FALSE((Finding{"", nan, relation, 1.0}.holds())) << "a value that is none is no success";
-  EXPECT_TRUE((Finding{"", nan, Finding::Relation::information, 0.0}.holds()));
+  EXPECT_TRUE((StressFinding{"", 1.0, StressFinding::Relation::at_most, 1.0}.holds()));
+  EXPECT_FALSE((StressFinding{"", 1.1, StressFinding::Relation::at_most, 1.0}.holds()));
+  EXPECT_TRUE((StressFinding{"", 1.0, StressFinding::Relation::at_least, 1.0}.holds()));
+  EXPECT_FALSE((StressFinding{"", 0.9, StressFinding::Relation::at_least, 1.0}.holds()));
+  EXPECT_FALSE((StressFinding{"", 0.9, StressFinding::Relation::equal, 1.0}.holds()));
+  for (const auto relation :
+       {StressFinding::Relation::at_most, StressFinding::Relation::at_least, StressFinding::Relation::equal})
+    EXPECT_FALSE((StressFinding{"", nan, relation, 1.0}.holds())) << "a value that is none is no success";
+  EXPECT_TRUE((StressFinding{"", nan, StressFinding::Relation::information, 0.0}.holds()));
 }
 
 TEST(Stress, VerdictsFollowFindingsAndKnownFailures) {
