@@ -48,7 +48,7 @@ std::string head_text(const Workload& workload, const harness::Context& context,
 std::string worst_ulp(const SubjectResult& subject, harness::Ulps harness::StepErrors::*field) {
   double worst = 0.0;
   for (const auto& step : subject.steps) worst = std::max(worst, (step.errors.*field).max);
-  return subject.steps.empty() ? "-" : fmt::format("{:.3g}", worst);
+  return subject.steps.empty() ? "-" : fmt::format("{:.4g}", worst);
 }
 
 std::string levels_text(const AgreeResult& result) {

@@ -25,7 +25,7 @@ namespace {
 /// Bits need few particles to differ, and the judge is slow: a scene that is larger is scaled, unless the size is asked
 /// for. One that cannot be scaled stays as it is.
 Workload sized_workload(const Options& options, std::vector<std::string>& notes) {
-  constexpr std::int64_t k_enough = 2000;
+  constexpr std::int64_t k_enough = 1000;
   const Workload workload = load_workload(options);
   if (options.particles || workload.info.particles <= k_enough) return workload;
   try {

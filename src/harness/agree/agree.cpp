@@ -223,20 +223,22 @@ void Agreeing::hand_over_to_first() {
     first.hand_over = hand_over(*reference_, true, first.notes);
 }
 
-/// Moves the first particles there are; a scene may begin with none.
+/// A run that is rounded otherwise in every sub-step, as by a device that promises no bits.
 Trajectory Agreeing::perturbed_run(Solver& solver, int member) {
   const EveryFrame tick = every_frame(fmt::format("perturbed run {}", member));
-  solver.restore(oracle_.start);
+  std::uint64_t seed = static_cast<std::uint64_t>(member) << 32;
   Trajectory run;
-  int left = result_.settings.frames;
-  const auto add = [&](int frames) {
-    const Trajectory more = follow(solver, frames, {}, tick);
-    run.observations.insert(run.observations.end(), more.observations.begin(), more.observations.end());
-    left -= frames;
-  };
-  while (solver.state().particles.size() == 0 && left > 0 && !stopped_) add(1);
-  solver.restore(perturbed(solver.state(), scene(), member));
-  add(left);
+  solver.restore(perturbed(oracle_.start, ++seed));
+  for (int frame = 0; frame < result_.settings.frames; ++frame) {
+    const std::uint64_t before = solver.clock().frame;
+    while (solver.clock().frame == before) {
+      solver.advance_substep();
+      solver.restore(perturbed(solver.state(), ++seed));
+    }
+    const double time_s = static_cast<double>(solver.clock().frame) / scene().time.frame_rate_hz;
+    run.observations.push_back(observe(scene(), solver.state().particles, time_s));
+    if (!tick()) break;
+  }
   return run;
 }
 

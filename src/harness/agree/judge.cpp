@@ -105,7 +105,7 @@ void judge_observables(const std::vector<ObservedDistance>& observed, SubjectRes
   for (const auto& one : observed) {
     if (one.within()) continue;
     result.long_run = Verdict::differs;
-    result.notes.push_back(fmt::format("{} is {:.3g} off over the long run; runs that began one rounding apart, {:.3g}",
+    result.notes.push_back(fmt::format("{} is {:.3g} off over the long run; runs that are rounded otherwise, {:.3g}",
                                        one.what, one.distance, one.floor));
   }
 }

@@ -52,16 +52,20 @@ std::vector<ObservedDistance> observed_distances(const Trajectory& run, const st
   return distances;
 }
 
-State perturbed(const State& state, const Scene& scene, int member) {
-  const double rounding = std::numeric_limits<float>::epsilon() * scene.container_size().maxCoeff();
+State perturbed(const State& state, std::uint64_t seed) {
+  constexpr float k_infinity = std::numeric_limits<float>::infinity();
+  const auto moved = [](double value, bool up) {
+    return static_cast<double>(std::nextafter(static_cast<float>(value), up ? k_infinity : -k_infinity));
+  };
   State result = state;
   Particles& particles = result.particles;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (is_lost(particles.positions[i].x())) continue;
-    const std::uint64_t coin = mix64((static_cast<std::uint64_t>(member) << 32) ^ particles.ids[i]);
+    const std::uint64_t coins = mix64(mix64(seed) ^ particles.ids[i]);
     for (int axis = 0; axis < 3; ++axis) {
-      const double moved = particles.positions[i][axis] + ((coin >> axis) & 1 ? rounding : -rounding);
-      particles.positions[i][axis] = static_cast<double>(static_cast<float>(moved));
+      double &x = particles.positions[i][axis], &v = particles.velocities[i][axis];
+      x = moved(x, ((coins >> axis) & 1) != 0);
+      v = moved(v, ((coins >> (3 + axis)) & 1) != 0);
     }
   }
   return result;

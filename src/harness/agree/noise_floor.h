@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@
 namespace squall::harness {
 
 /// How far two runs are apart in one number that does not follow single particles, beside how far runs are apart that
-/// began one rounding apart: water is chaotic, so every difference grows until only such numbers mean anything.
+/// are rounded otherwise in every sub-step: water is chaotic, so every difference grows until only such numbers mean
+/// anything.
 struct ObservedDistance {
   std::string what;       ///< "front_m": a name of Observation
   double distance = 0.0;  ///< root mean square over the frames
@@ -20,11 +22,11 @@ struct ObservedDistance {
   static constexpr double k_allowance = 2.0;
 };
 
-/// Distances of `run` from the first of `ensemble`, whose members began one rounding apart.
+/// Distances of `run` from the first of `ensemble`, whose members were rounded otherwise in every sub-step.
 std::vector<ObservedDistance> observed_distances(const Trajectory& run, const std::vector<Trajectory>& ensemble);
 
-/// The state with every coordinate moved by one rounding of the container's size, this way or that as `member` (1, 2,
-/// ...) decides. Particles stay inside: where they touch a face the safety net does what it does in every run.
-State perturbed(const State& state, const Scene& scene, int member);
+/// The state as another rounding might have left it: every coordinate and velocity one place further up or down in
+/// single precision, as `seed` and the particle's id decide. Lost particles stay.
+State perturbed(const State& state, std::uint64_t seed);
 
 }  // namespace squall::harness

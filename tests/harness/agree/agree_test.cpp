@@ -238,7 +238,7 @@ TEST(Agree, AnEmptySceneAgrees) {
 TEST(Agree, SceneThatBeginsWithRainHasANoiseFloor) {
   Scene scene = test::empty_tank();
   scene.container.open_top = true;
-  scene.rains.push_back(test::rain_over_tank(6000));
+  scene.rains.push_back(test::rain_over_tank(600));
   const AgreeResult result = agree_on(scene, {subject("twin")}, {});
   EXPECT_TRUE(result.agree());
   EXPECT_EQ(result.subjects[1].steps.size(), 2u) << "half-way, as it is and at rest";

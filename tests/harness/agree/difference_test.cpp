@@ -8,7 +8,6 @@
 
 #include "harness/agree/noise_floor.h"
 #include "harness/agree/one_step.h"
-#include "support/scenes.h"
 
 namespace squall::harness {
 namespace {
@@ -108,18 +107,20 @@ TEST(StepErrors, AreUnitsInTheLastPlaceOfTheLargestValue) {
   EXPECT_EQ(errors.neighbours_differ, 1);
 }
 
-TEST(Perturbed, MovesEveryParticleByARounding) {
-  const Scene scene = test::empty_tank();
+TEST(Perturbed, MovesEveryNumberByOnePlace) {
   const State state = some_state();
-  const State moved = perturbed(state, scene, 1), other = perturbed(state, scene, 2);
-  const double rounding = std::numeric_limits<float>::epsilon() * scene.container_size().maxCoeff();
+  const State moved = perturbed(state, 1), other = perturbed(state, 2);
   for (std::size_t i = 0; i < state.particles.size(); ++i) {
-    const auto shift = (moved.particles.positions[i] - state.particles.positions[i]).cwiseAbs();
-    EXPECT_GT(shift.minCoeff(), 0.0);
-    EXPECT_LE(shift.maxCoeff(), 1.5 * rounding);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto was = static_cast<float>(state.particles.velocities[i][axis]);
+      const auto is = static_cast<float>(moved.particles.velocities[i][axis]);
+      EXPECT_TRUE(is == std::nextafter(was, 9.0f) || is == std::nextafter(was, -9.0f)) << is;
+    }
+    EXPECT_NE(moved.particles.positions[i], state.particles.positions[i]);
+    EXPECT_LT((moved.particles.positions[i] - state.particles.positions[i]).norm(), 1e-7);
   }
   EXPECT_NE(exact_hash(moved), exact_hash(other));
-  EXPECT_EQ(exact_hash(moved), exact_hash(perturbed(state, scene, 1)));
+  EXPECT_EQ(exact_hash(moved), exact_hash(perturbed(state, 1)));
 }
 
 }  // namespace
