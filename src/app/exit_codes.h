@@ -4,7 +4,7 @@
 
 namespace squall::app {
 
-/// What the process tells its caller (docs/command-line.md).
+/// What the process tells its caller (README.md).
 enum ExitCode {
   k_exit_fine = 0,
   k_exit_internal = 1,

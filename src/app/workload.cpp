@@ -12,7 +12,7 @@ namespace squall::app {
 Workload load_workload(const Options& options) {
   Workload workload;
   Scene& scene = workload.scene;
-  scene = load_scene(options.scene);
+  scene = load_scene(options.scene, options.pressure);
   if (options.particles) scale_to_particles(scene, *options.particles);
   if (options.dt_max_s) scene.solver.dt_max_s = *options.dt_max_s;
   validate(scene);

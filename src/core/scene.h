@@ -118,17 +118,19 @@ inline constexpr double k_largest_dfsph_ratio = 2.2;
 std::string ratio_problem(const Scene& scene, Pressure pressure);
 
 /// Reads a scene file. Throws InputError with file:line:column for what cannot be read, an unknown key (with the
-/// nearest valid name), a wrong type, a value out of range (with value and range), a domain without room.
-Scene load_scene(const std::string& path);
+/// nearest valid name), a wrong type, a value out of range (with value and range), a domain without room, a support
+/// ratio that its pressure solver cannot run. `instead`: the solver that it will be run with, whatever it says.
+Scene load_scene(const std::string& path, std::optional<Pressure> instead = std::nullopt);
 
 /// The same from text; `path` names it in messages and is what particle files are relative to.
-Scene parse_scene(const std::string& text, const std::string& path);
+Scene parse_scene(const std::string& text, const std::string& path, std::optional<Pressure> instead = std::nullopt);
 
 /// Gives the text of a file; throws InputError if it cannot.
 using FileReader = std::function<std::string(const std::string& path)>;
 
 /// The same, with particle files from `read`: for scenes that lie in no folder.
-Scene parse_scene(const std::string& text, const std::string& path, const FileReader& read);
+Scene parse_scene(const std::string& text, const std::string& path, const FileReader& read,
+                  std::optional<Pressure> instead = std::nullopt);
 
 /// The whole scene, defaults included, as a scene file that load_scene reads back to an equal scene.
 std::string print_scene(const Scene& scene);

@@ -132,16 +132,24 @@ class SceneReader {
 
 }  // namespace
 
-Scene parse_scene(const std::string& text, const std::string& path) { return parse_scene(text, path, read_text_file); }
+Scene parse_scene(const std::string& text, const std::string& path, std::optional<Pressure> instead) {
+  return parse_scene(text, path, read_text_file, instead);
+}
 
-Scene parse_scene(const std::string& text, const std::string& path, const FileReader& read) {
+Scene parse_scene(const std::string& text, const std::string& path, const FileReader& read,
+                  std::optional<Pressure> instead) {
   SceneReader reader(text, path);
   Scene scene = reader.read();
   reader.read_particle_files(scene, read);
   scene_keys::check_scene(scene, reader.places());
+  if (const auto pressure = instead ? instead : scene.solver.pressure)
+    if (const std::string problem = ratio_problem(scene, *pressure); !problem.empty())
+      throw InputError(reader.places()(scene_keys::SectionName{"fluid"}, "support_ratio") + problem);
   return scene;
 }
 
-Scene load_scene(const std::string& path) { return parse_scene(read_text_file(path), path); }
+Scene load_scene(const std::string& path, std::optional<Pressure> instead) {
+  return parse_scene(read_text_file(path), path, instead);
+}
 
 }  // namespace squall

@@ -87,9 +87,6 @@ class Checker {
       fail({"solver"}, "xsph",
            "xsph = " + number_text(scene_.solver.xsph) + " needs pressure dfsph, not " + to_string(*pressure) +
                "; remove it or write 0");
-    if (pressure)
-      if (const std::string problem = ratio_problem(scene_, *pressure); !problem.empty())
-        fail({"fluid"}, "support_ratio", problem);
     if (scene_.solver.negative_pressure && pressure != Pressure::mueller)
       fail({"solver"}, "negative_pressure", "negative_pressure = true needs pressure = \"mueller\" in [solver]");
   }

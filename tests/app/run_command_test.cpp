@@ -199,18 +199,42 @@ TEST(RunCommand, AnUnstableRunIsAnErrorRow) {
   EXPECT_FALSE(run_of(outcome).contains("fps"));
 }
 
-TEST(RunCommand, AnInterruptFinishesTheFrameAndWritesWhatWasAsked) {
+/// Ends a long run by a signal once it is under way, and returns how it ended; everything it was asked for is there.
+int code_after(void (Program::*signal)() const) {
   const TemporaryFolder folder;
   Program program(reference_run({"--frames", "1000000", "--json", folder / "run.json", "--out", folder / "out"}));
   // The interrupt is caught from before this file appears.
   for (int tries = 0; tries < 3000 && !std::filesystem::exists(folder / "out/frames.csv"); ++tries)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  program.interrupt();
+  (program.*signal)();
   const Outcome outcome = program.wait();
-  EXPECT_EQ(outcome.code, 130) << outcome.err;
   const json run = json::parse(text_of(folder / "run.json")).at("runs").at(0);
   EXPECT_LT(run["frames"], 1000000);
   EXPECT_EQ(lines_in(text_of(folder / "out/frames.csv")), 1u + run["frames"].get<std::size_t>());
+  return outcome.code;
+}
+
+TEST(RunCommand, AnInterruptFinishesTheFrameAndWritesWhatWasAsked) { EXPECT_EQ(code_after(&Program::interrupt), 130); }
+
+TEST(RunCommand, SigtermDoesSoToo) { EXPECT_EQ(code_after(&Program::terminate), 143); }
+
+TEST(RunCommand, AForcedSolverThatCannotRunASceneMayBeReplaced) {
+  const TemporaryFolder folder;
+  std::string text = text_of(k_tiny);
+  text.insert(text.find("spacing_m"), "support_ratio = 2.5\n");
+  std::ofstream(folder / "far.toml") << text << "\n[solver]\npressure = \"dfsph\"\n";
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run", folder / "far.toml", "--backend", "reference", "--frames", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return squall(arguments);
+  };
+  const Outcome forced = run({});
+  EXPECT_EQ(forced.code, 3);
+  EXPECT_NE(forced.err.find("far.toml:8:17: support_ratio = 2.5 is too large for dfsph"), std::string::npos)
+      << forced.err;
+  const Outcome replaced = run({"--pressure", "wcsph"});
+  EXPECT_EQ(replaced.code, 0) << replaced.err;
+  EXPECT_EQ(run({"--pressure", "dfsph"}).code, 3);
 }
 
 }  // namespace
