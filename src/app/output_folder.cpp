@@ -55,6 +55,7 @@ std::vector<std::filesystem::path> OutputFolder::own_files(const std::filesystem
 
 OutputFolder::OutputFolder(const std::string& path, const Workload& workload, std::uint64_t earlier_frames)
     : path_(path),
+      workload_(workload),
       earlier_frames_(earlier_frames),
       earlier_s_(static_cast<double>(earlier_frames) / workload.scene.time.frame_rate_hz) {
   std::error_code error;
@@ -64,16 +65,45 @@ OutputFolder::OutputFolder(const std::string& path, const Workload& workload, st
     check_earlier_scene(workload);
     check_earlier_gauges(workload);
   }
+  // A device that fails before the first frame must not cost the results of an earlier run. One that goes on keeps
+  // what they share and cuts the rest at once: it would come again.
+  if (earlier_frames_ == 0 && holds_results())
+    check_writable();
+  else
+    begin();
+}
+
+bool OutputFolder::holds_results() const {
+  const auto files = own_files(path_);
+  std::error_code error;
+  return std::any_of(files.begin(), files.end(),
+                     [&](const auto& file) { return std::filesystem::exists(file, error); });
+}
+
+/// Tries without changing what a file holds.
+void OutputFolder::check_writable() const {
+  for (const char* name : {"scene.toml", "frames.csv", "series.csv"}) {
+    const std::filesystem::path file = path_ / name;
+    std::error_code error;
+    const bool is_new = !std::filesystem::exists(file, error);
+    check(std::ofstream(file, std::ios::app), file);
+    if (is_new) std::filesystem::remove(file, error);
+  }
+}
+
+void OutputFolder::begin() {
+  if (begun_) return;
+  begun_ = true;
   remove_old_files();
   auto scene = open("scene.toml");
-  scene << print_workload(workload) << std::flush;
+  scene << print_workload(workload_) << std::flush;
   check(scene, path_ / "scene.toml");
   std::ostringstream header;
   harness::write_frames_header(header);
   frames_ = open_rows("frames.csv", header.str());
   if (earlier_frames_ == 0) return;
   open_series();  // rows that come after must not outlive a run that makes none
-  if (!workload.scene.gauges.empty()) open_gauges(workload.scene, workload.pressure);
+  if (!workload_.scene.gauges.empty()) open_gauges(workload_.scene, workload_.pressure);
 }
 
 void OutputFolder::check_earlier_scene(const Workload& workload) const {
@@ -166,6 +196,7 @@ void OutputFolder::add_gauges(const harness::Run& run, double time_s) {
 }
 
 void OutputFolder::add_frame(const std::string& label, const harness::FrameRecord& frame) {
+  begin();
   harness::write_frame(frames_, label, frame);
 }
 
@@ -178,12 +209,14 @@ void OutputFolder::save_particles(const harness::Run& run) const {
 }
 
 void OutputFolder::flush() {
+  if (!begun_) return;
   frames_.flush();
   series_.flush();
   gauges_file_.flush();
 }
 
 void OutputFolder::finish() {
+  if (!begun_) return;
   frames_.flush();
   check(frames_, path_ / "frames.csv");
   if (!series_.is_open()) return;

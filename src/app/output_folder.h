@@ -14,12 +14,13 @@
 namespace squall::app {
 
 /// The folder of --out: scene.toml, frames.csv, series.csv, gauges.csv where the scene has gauges and, with
-/// --save-every, frame_000000.csv. Made if missing; files of these names from an earlier run are removed. Throws
+/// --save-every, frame_000000.csv. Made if missing; files of these names from an earlier run are removed as soon as
+/// there is a frame to write in their place, and not before; a run that goes on cuts what comes again at once. Throws
 /// InputError for what cannot be written.
 class OutputFolder {
  public:
-  /// A run that goes on from `earlier_frames` frames keeps what they left here, and throws InputError if that is of
-  /// another scene or of other gauges.
+  /// The workload must outlive the folder. A run that goes on from `earlier_frames` frames keeps what they left here,
+  /// and throws InputError if that is of another scene or of other gauges.
   OutputFolder(const std::string& path, const Workload& workload, std::uint64_t earlier_frames = 0);
 
   /// Paths in this folder that are the names above, whether there or not; of frame_000000.csv only those there.
@@ -39,6 +40,9 @@ class OutputFolder {
  private:
   void check_earlier_scene(const Workload& workload) const;
   void check_earlier_gauges(const Workload& workload) const;
+  bool holds_results() const;
+  void check_writable() const;
+  void begin();
   void remove_old_files() const;
   void open_series();
   void open_gauges(const Scene& scene, Pressure pressure);
@@ -49,6 +53,8 @@ class OutputFolder {
   void save_particles(const harness::Run& run) const;
 
   std::filesystem::path path_;
+  const Workload& workload_;
+  bool begun_ = false;
   std::uint64_t earlier_frames_ = 0;
   double earlier_s_ = 0.0;  ///< what they simulated
   std::ofstream frames_, series_, gauges_file_;

@@ -107,6 +107,25 @@ TEST(Faults, ADeviceThatFailsAtTheStartIsSaid) {
   fails("clGetDeviceIDs -6 1", "CL_OUT_OF_HOST_MEMORY (-6)");
 }
 
+// At the start, while it warms up and in its first frame: what an earlier run left in the folder stays.
+TEST(Faults, ADeviceThatFailsBeforeItsFirstFrameLeavesEarlierResults) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  ASSERT_EQ(squall(run_on("omp", {"--frames", "3", "--save-every", "1", "--out", out})).code, 0);
+  const std::vector<std::string> names{"scene.toml", "frames.csv", "series.csv", "frame_000002.csv"};
+  std::vector<std::string> earlier;
+  for (const auto& name : names) earlier.push_back(text_of(out + "/" + name));
+  for (const char* call : {"1", "5", "30", "60"}) {
+    const Outcome failed = squall(run_on("opencl", {"--frames", "2", "--out", out}),
+                                  fault(std::string("clEnqueueNDRangeKernel -5 ") + call));
+    EXPECT_EQ(failed.code, 4) << "at call " << call;
+    for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(text_of(out + "/" + names[i]), earlier[i]) << names[i];
+  }
+  ASSERT_EQ(squall(run_on("opencl", {"--frames", "1", "--out", out})).code, 0);
+  EXPECT_NE(text_of(out + "/frames.csv"), earlier[1]);
+  EXPECT_FALSE(std::filesystem::exists(out + "/frame_000002.csv"));
+}
+
 TEST(Faults, APlatformWithoutDevicesIsLeftOutWithAReason) {
   const Outcome devices = squall({"devices"}, fault("clGetDeviceIDs -1 1"));
   EXPECT_EQ(devices.code, 0) << devices.err;
