@@ -81,6 +81,10 @@ inline double fms(double a, double b, double c) { return fma(a, b, -c); }
 #ifndef SQUALL_LANES /* particles per vector: 1, 8 or 16; in double precision 1, 4 or 8 */
 #define SQUALL_LANES 1
 #endif
+#if SQUALL_LANES > 1 && defined(__clang__)
+/* A processor without such wide registers passes vectors otherwise; all that pass them are compiled for it alike. */
+#pragma clang diagnostic ignored "-Wpsabi"
+#endif
 #if SQUALL_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double Scalar;

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "backend_opencl/device.h"
 #include "backend_opencl/errors.h"
+#include "backend_opencl/passes.h"
 
 namespace squall::opencl {
 namespace {
@@ -48,6 +50,23 @@ TEST(Program, NamesTheFileAndLineWrittenByHand) {
   EXPECT_LT(line, 100) << "density.cl is a short file: these are lines of its headers";
   EXPECT_THAT(build_error({{"kernels/density.cl", spoilt.c_str()}}, "-cl-std=CL1.2"),
               HasSubstr("kernels/density.cl:" + std::to_string(line)));
+}
+
+// Compilers may print how many there were, in the middle of a program's output.
+TEST(Program, BuildsWithoutAWarning) {
+  const Machine machine = open_machine(Settings{});
+  // No driver has kept what was built with this mark: it is compiled now.
+  const std::string mark =
+      " -DSQUALL_MARK=" + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count());
+  for (const int lanes : {1, 8, 16})
+    for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph}) {
+      Scene scene;
+      scene.boxes.emplace_back();
+      scene.rains.emplace_back();
+      const std::string options = build_options(scene, pressure, machine.rounds_correctly, lanes);
+      const cl::Program program = build_program(machine.context, machine.device, embedded_kernels(), options + mark);
+      EXPECT_THAT(program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(machine.device), Not(HasSubstr("warning"))) << options;
+    }
 }
 
 TEST(Program, EmbedsEveryHeader) {
