@@ -1,4 +1,5 @@
 #include <omp.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +16,7 @@
 #include "backend_omp/pressure_solve.h"
 #include "backend_omp/row_split.h"
 #include "backend_omp/team_array.h"
+#include "core/address_space.h"
 #include "core/precision.h"
 #include "grid.h"
 
@@ -39,6 +41,25 @@ Simd choose_simd(Simd wanted) {
   return wanted;
 }
 
+std::size_t stack_bytes() {
+  pthread_attr_t attributes;
+  std::size_t bytes = 0;
+  pthread_attr_init(&attributes);
+  pthread_attr_getstacksize(&attributes, &bytes);
+  pthread_attr_destroy(&attributes);
+  return bytes;
+}
+
+/// As many as asked for, or all. Throws DeviceError where there is no room for their stacks: OpenMP would end the
+/// process.
+int choose_threads(int wanted) {
+  const int threads = wanted > 0 ? wanted : omp_get_max_threads();
+  const std::string problem = address_space_problem("a team of " + std::to_string(threads) + " threads",
+                                                    static_cast<std::size_t>(threads - 1) * stack_bytes());
+  if (!problem.empty()) throw DeviceError(problem + ", or use fewer threads");
+  return threads;
+}
+
 constexpr std::size_t k_particles_per_thread = 256;  ///< fewer are done before another thread has woken up
 
 template <class Scalar>
@@ -46,7 +67,7 @@ class OmpSolver final : public Solver {
  public:
   OmpSolver(const Scene& scene, const Settings& settings)
       : Solver(scene, settings),
-        threads_(settings.threads > 0 ? settings.threads : omp_get_max_threads()),
+        threads_(choose_threads(settings.threads)),
         simd_(choose_simd(settings.simd)),
         passes_(passes_for<Scalar>(simd_)),
         p_(in_precision<Scalar>(params())),

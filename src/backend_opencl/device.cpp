@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -9,6 +10,7 @@
 
 #include "backend_opencl/errors.h"
 #include "backend_opencl/opencl_backend.h"
+#include "core/address_space.h"
 
 namespace squall::opencl {
 
@@ -16,6 +18,9 @@ namespace {
 
 // Every kernel with one work-item per particle runs in groups of this many (buffers.h).
 constexpr std::size_t k_smallest_group = 64;
+
+// PoCL 3.1 takes 520 MiB of address space on two cores, compiler included, and ends the process where they run out.
+constexpr std::uint64_t k_driver_bytes = std::uint64_t{1} << 30;
 
 std::string kind_of(cl_device_type type) {
   if (type & CL_DEVICE_TYPE_CPU) return "cpu";
@@ -180,7 +185,11 @@ std::string mebibytes(cl_ulong bytes) { return std::to_string((bytes + (1 << 20)
 
 std::vector<FoundDevice> find_devices(std::string* problem) {
   std::vector<FoundDevice> found;
-  std::string why;
+  std::string why = address_space_problem("an OpenCL driver", k_driver_bytes);
+  if (!why.empty()) {
+    if (problem) *problem = why;
+    return found;
+  }
   try {
     std::vector<cl::Platform> platforms;
     cl::Platform::get(&platforms);

@@ -152,6 +152,28 @@ TEST(Faults, OmpWithoutMemoryForItsListsIsADeviceFailure) {
 }
 #endif
 
+#ifndef SQUALL_SANITIZED  // sanitizers reserve address space beyond any limit
+// Where ulimit -v leaves too little, OpenMP and OpenCL drivers would end the process in their own ways.
+TEST(Faults, TooLittleAddressSpaceIsSaid) {
+  constexpr rlim_t k_mebibyte = rlim_t{1} << 20;
+  const auto limited = [](const std::vector<std::string>& arguments, rlim_t mebibytes) {
+    return Program(arguments, {}, "", 0, mebibytes * k_mebibyte).wait();
+  };
+  const Outcome threads = limited(run_on("omp", {"--frames", "1", "--threads", "1000"}), 1000);
+  EXPECT_EQ(threads.code, 4) << threads.err;
+  EXPECT_THAT(threads.err, HasSubstr("a team of 1000 threads needs"));
+  EXPECT_THAT(threads.err, HasSubstr("ulimit -v, or use fewer threads"));
+  EXPECT_EQ(limited(run_on("omp", {"--frames", "1", "--threads", "2"}), 1000).code, 0);
+
+  const Outcome driver = limited(run_on("opencl", {"--frames", "1"}), 300);
+  EXPECT_EQ(driver.code, 4) << driver.err;
+  EXPECT_THAT(driver.err, HasSubstr("an OpenCL driver needs"));
+  const Outcome compared = limited({"compare", k_tiny, "--frames", "1"}, 300);
+  EXPECT_EQ(compared.code, 0) << compared.err;
+  EXPECT_THAT(compared.err, HasSubstr("opencl is left out: an OpenCL driver needs"));
+}
+#endif
+
 TEST(Faults, MoreThreadsThanCoresChangeNothing) {
   const std::string expected = hash_after(5);
   const auto hash = [](std::vector<std::string> more, const Environment& environment) {

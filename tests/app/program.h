@@ -48,13 +48,14 @@ struct Outcome {
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
 /// The command squall as a process of its own, its output in files; stdout goes to `stdout_to`, or is closed, if said.
-/// `file_limit`: files take so many bytes and no more, as on a full disk; 0: no limit.
+/// `file_limit`: files take so many bytes and no more, as on a full disk; 0: no limit. `address_limit`: bytes of
+/// address space, as ulimit -v sets them; 0: no limit.
 class Program {
  public:
   static constexpr const char* k_closed = "closed";
 
   explicit Program(const std::vector<std::string>& arguments, const Environment& environment = {},
-                   const std::string& stdout_to = "", rlim_t file_limit = 0) {
+                   const std::string& stdout_to = "", rlim_t file_limit = 0, rlim_t address_limit = 0) {
     std::fflush(nullptr);  // what is buffered here would be written by the child, too
     child_ = fork();
     if (child_ != 0) return;
@@ -65,6 +66,7 @@ class Program {
       _exit(126);
     if (stdout_to == k_closed) close(STDOUT_FILENO);
     if (const rlimit limit{file_limit, file_limit}; file_limit > 0) setrlimit(RLIMIT_FSIZE, &limit);
+    if (const rlimit limit{address_limit, address_limit}; address_limit > 0) setrlimit(RLIMIT_AS, &limit);
     std::vector<std::string> texts{SQUALL_PROGRAM};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
     std::vector<char*> words;
