@@ -24,7 +24,8 @@ constexpr KeyRule optional(double low, double high) { return {false, low, high};
 constexpr KeyRule required_text() { return {true, 0.0, 0.0}; }
 constexpr KeyRule optional_choice() { return {false, 0.0, 0.0}; }
 
-inline constexpr double k_reach_m = 1e5;      ///< coordinates and displacements
+inline constexpr double k_reach_m = 1e5;      ///< coordinates in the world
+inline constexpr double k_travel_m = 1000.0;  ///< of a container
 inline constexpr double k_latest_s = 1e6;     ///< points in time
 inline constexpr double k_fastest_m_s = 1e3;  ///< start velocities
 inline constexpr double k_strongest_m_s2 = 1e3;
@@ -104,7 +105,7 @@ template <class Visit>
 void visit_keys(AnyConst<Scene::Motion> auto& motion, Visit&& visit) {
   visit("start_s", motion.start_s, required(0.0, k_latest_s));
   visit("duration_s", motion.duration_s, required(1e-3, k_latest_s));
-  visit("displacement_m", motion.displacement_m, optional(-k_reach_m, k_reach_m));
+  visit("displacement_m", motion.displacement_m, optional(-k_travel_m, k_travel_m));
   visit("acceleration_m_s2", motion.acceleration_m_s2, optional(-k_strongest_m_s2, k_strongest_m_s2));
 }
 
