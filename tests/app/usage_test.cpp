@@ -26,8 +26,7 @@ TEST(Usage, HelpAndVersionAreFine) {
 TEST(Usage, CommandsThatAreNotThere) {
   expect_usage_error({}, "a command is missing");
   expect_usage_error({"rum"}, "'rum' is unknown");
-  for (const char* later : {"cost", "view"})
-    expect_usage_error({later, k_tiny, "--anything"}, "not in this version");
+  for (const char* later : {"cost", "view"}) expect_usage_error({later, k_tiny, "--anything"}, "not in this version");
 }
 
 TEST(Usage, OptionsThatAreNotThere) {
