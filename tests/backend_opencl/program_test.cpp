@@ -63,7 +63,9 @@ TEST(Program, BuildsWithoutAWarning) {
       Scene scene;
       scene.boxes.emplace_back();
       scene.rains.emplace_back();
-      const std::string options = build_options(scene, pressure, machine.rounds_correctly, lanes);
+      Settings settings;
+      settings.pressure = pressure;
+      const std::string options = build_options(scene, settings, machine.rounds_correctly, lanes);
       const cl::Program program = build_program(machine.context, machine.device, embedded_kernels(), options + mark);
       EXPECT_THAT(program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(machine.device), Not(HasSubstr("warning"))) << options;
     }

@@ -86,12 +86,10 @@ inline std::vector<BackendUnderTest> bitwise_backends(Pressure pressure,
 
 inline constexpr Precision k_precisions[] = {Precision::single_precision, Precision::double_precision};
 
-/// All of them; of double precision one for each way to write the code, since all give the same bits.
+/// All of them; of double precision one beside the reference, since all give the same bits (same_bits_test.cpp).
 inline std::vector<BackendUnderTest> all_backends(Pressure pressure) {
   std::vector<BackendUnderTest> all = bitwise_backends(pressure);
   all.push_back(omp("double", 2, Simd::best, pressure, Precision::double_precision));
-  all.push_back(opencl("double_particles", Simd::scalar, pressure, Precision::double_precision));
-  all.push_back(opencl("double4", Simd::avx2, pressure, Precision::double_precision));
   all.push_back(reference(Precision::double_precision, pressure));
   return all;
 }

@@ -99,14 +99,14 @@ TEST_P(DfsphBits, OfFewAndOddNumbersOfParticles) {
 }
 
 // Five threads share out what there is for five: 256 particles each.
-TEST_P(DfsphBits, OfStartsThatAreTooDenseOnMoreThreadsThanProcessors) {
+TEST(DfsphBitsInSingle, OfStartsThatAreTooDenseOnMoreThreadsThanProcessors) {
   Scene scene = filled_tank(11);
   scene.container.max_m += Eigen::Vector3d::Constant(0.1);
   scene.time.frame_rate_hz = 250;
   Particles particles = initial_particles(scene);
   ASSERT_GT(particles.size(), 5u * 256u);
   for (auto& x : particles.positions) x = (x / std::cbrt(1.3)).cast<float>().cast<double>();
-  Beside all(scene, GetParam());
+  Beside all(scene, Precision::single_precision);
   all.load(particles);
   all.run(2);
   EXPECT_GT(all.report().density_iterations, 2 * all.report().substeps);
@@ -114,7 +114,7 @@ TEST_P(DfsphBits, OfStartsThatAreTooDenseOnMoreThreadsThanProcessors) {
 
 // More iterations of both solves than OpenCL enqueues at once: at most 16 before the host looks again, in the first
 // sub-step 1 or 2 and then twice as many each time, 30 until it comes to those 16.
-TEST_P(DfsphBits, OfSolvesThatTakeManyIterations) {
+TEST(DfsphBitsInSingle, OfSolvesThatTakeManyIterations) {
   Scene scene = filled_tank(5);
   scene.container.max_m.x() += 0.2;
   scene.solver.density_tolerance = scene.solver.divergence_tolerance = 1e-7;
@@ -122,7 +122,7 @@ TEST_P(DfsphBits, OfSolvesThatTakeManyIterations) {
   scene.time.frame_rate_hz = 250;
   Particles particles = initial_particles(scene);
   for (std::size_t i = 0; i < particles.size(); ++i) particles.velocities[i].y() = i % 2 == 0 ? -0.5 : 0.0;
-  Beside all(scene, GetParam());
+  Beside all(scene, Precision::single_precision);
   all.load(particles);
   all.run(1);
   EXPECT_GT(all.report().density_iterations_max, 30);
