@@ -110,7 +110,7 @@ TEST(StudyRecord, KeysTellRunsApart) {
   };
   StudyRun other = run;
   other.scene.solver.cfl = 0.2, expect_new(other, "scene");
-  other = run, other.plan.settings.pressure = Pressure::dfsph, expect_new(other, "solver");
+  other = run, other.plan.settings.pressure = Pressure::mueller, expect_new(other, "solver");
   other = run, other.plan.settings.precision = Precision::single_precision, expect_new(other, "precision");
   other = run, other.plan.settings.threads = 2, expect_new(other, "threads");
   other = run, other.plan.settings.seed = 2, expect_new(other, "seed");
