@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "backend_omp/out_of_reach.h"
+
 namespace squall::openmp {
 
 /// A thread's values per neighbour and lane of its blocks, in the order of its NeighbourList; on cache lines.
@@ -18,7 +20,11 @@ struct PairValues {
   ~PairValues();
 
   /// Room for `more` values behind `used`; false if there is none to be had.
-  bool reserve(std::size_t more) { return used + more <= capacity || grow(more); }
+  bool reserve(std::size_t more) {
+    if (used + more > capacity && !grow(more)) return false;
+    put_out_of_reach(data, used + more, capacity);
+    return true;
+  }
 
  private:
   bool grow(std::size_t more);
@@ -41,7 +47,11 @@ struct NeighbourList {
   ~NeighbourList();
 
   /// Room for `more` entries behind `used`; false, with out_of_memory set, if there is none to be had.
-  bool reserve(std::size_t more) { return used + more <= capacity || grow(more); }
+  bool reserve(std::size_t more) {
+    if (used + more > capacity && !grow(more)) return false;
+    put_out_of_reach(data, used + more, capacity);
+    return true;
+  }
   /// The same for weights.
   bool reserve_weights(std::size_t more) {
     out_of_memory = out_of_memory || !weights.reserve(more);

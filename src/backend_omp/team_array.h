@@ -7,6 +7,8 @@
 #include <new>
 #include <type_traits>
 
+#include "backend_omp/out_of_reach.h"
+
 namespace squall::openmp {
 
 /// An array on cache lines that a team shares. Memory belongs to the processor that touches it first: a larger array is
@@ -25,6 +27,7 @@ class TeamArray {
   /// Keeps what there is; new elements are `value`.
   void resize(std::size_t size, const T& value, int threads) {
     if (size > capacity_) grow(size, value, threads);
+    put_out_of_reach(data_.get(), size, capacity_);
     if (size > size_) std::fill(data_.get() + size_, data_.get() + size, value);
     size_ = size;
   }
