@@ -69,7 +69,9 @@ struct Cells {
   int lane;
   void store(int* to) const { *to = lane; }
 };
+/// Of the lost any will do: no int says where they are.
 inline Cells cell_coordinates(Pack coordinate, Scalar inverse_edge, int cells) {
+  if (is_lost(coordinate.lane)) return {0};
   return {cell_coordinate(coordinate.lane, inverse_edge, cells)};
 }
 inline Cells select(Mask m, Cells yes, int no) { return {m.lane ? yes.lane : no}; }
