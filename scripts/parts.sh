@@ -32,6 +32,9 @@ use_sanitizer_options() {
   export ASAN_SYMBOLIZER_PATH=/usr/lib/llvm-14/bin/llvm-symbolizer
   export ASAN_OPTIONS=allocator_may_return_null=1:detect_stack_use_after_return=1:strict_string_checks=1
   export LSAN_OPTIONS=suppressions=$folder/lsan.supp:print_suppressions=0
+  # LLVM 14's libomp keeps a team for the next region, and loses its buffers (t_disp_buffer) when that is to be larger: it
+  # shall keep none. To suppress what has libomp on its stack would be to suppress all that a team allocates.
+  export KMP_HOT_TEAMS_MAX_LEVEL=0
   export UBSAN_OPTIONS=print_stacktrace=1
   export TSAN_OPTIONS=allocator_may_return_null=1:external_symbolizer_path=$ASAN_SYMBOLIZER_PATH:suppressions=$folder/tsan.supp:ignore_noninstrumented_modules=1:print_suppressions=0
 }
