@@ -41,6 +41,8 @@ part_asan() {
   left_out properties "a part of its own"
   left_out "bench and its tests" "they measure, and test.sh builds and runs them"
   left_out package.embed "a user's project is built without sanitizers, and test.sh does so"
+  left_out "a million particles, but for one test" "they take minutes and go the way of a thousand (tests/squall_tests.cmake)"
+  left_out "same bits at full size, far into their scenes" "they take minutes, test.sh runs them, and smaller ones are run here"
   use_sanitizer_options
   ctest --test-dir build/asan --output-on-failure --no-tests=error -j 2 \
     -E '^(kernels\.opencl_syntax|properties|package\.embed)$'

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <string>
 #include <tuple>
 
 #include "core/frame_plan.h"
@@ -23,7 +24,11 @@ class OmpSort : public testing::TestWithParam<std::tuple<int, int>> {};
 
 INSTANTIATE_TEST_SUITE_P(SizesAndThreads, OmpSort,
                          testing::Combine(testing::Values(0, 1, 2, 63, 64, 65, 1000, (1 << 20) + 1),
-                                          testing::Values(1, 2, 3, 7)));
+                                          testing::Values(1, 2, 3, 7)),
+                         [](const auto& info) {
+                           return std::to_string(std::get<0>(info.param)) + "_on_" +
+                                  std::to_string(std::get<1>(info.param));
+                         });
 
 TEST_P(OmpSort, IsTheStableSort) {
   const int count = std::get<0>(GetParam()), threads = std::get<1>(GetParam());
