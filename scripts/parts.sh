@@ -36,7 +36,7 @@ use_sanitizer_options() {
   # shall keep none. To suppress what has libomp on its stack would be to suppress all that a team allocates.
   export KMP_HOT_TEAMS_MAX_LEVEL=0
   export UBSAN_OPTIONS=print_stacktrace=1
-  export TSAN_OPTIONS=allocator_may_return_null=1:external_symbolizer_path=$ASAN_SYMBOLIZER_PATH:suppressions=$folder/tsan.supp:ignore_noninstrumented_modules=1:print_suppressions=0
+  export TSAN_OPTIONS=halt_on_error=1:allocator_may_return_null=1:external_symbolizer_path=$ASAN_SYMBOLIZER_PATH:suppressions=$folder/tsan.supp:ignore_noninstrumented_modules=1:print_suppressions=0
 }
 
 # build_preset PRESET TARGET...: with clang, a warning being an error. What lies in the cache stays: a compiler launcher, say.
