@@ -37,7 +37,7 @@ build_squall() {
 field() { python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["runs"][0][sys.argv[2]])' "$1" "$2"; }
 
 part_tidy() {
-  cmake --preset asan -B build/tidy -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >&2
+  cmake --preset asan -B build/tidy -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSQUALL_BUILD_BENCH=ON >&2
   git ls-files 'src/*.cpp' 'tests/*.cpp' 'bench/*.cpp' 'fuzz/*.cpp' ':!bench/peers' |
     xargs -P "$(nproc)" -n 4 clang-tidy-14 -p build/tidy --quiet
 }
