@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check.sh [PART...]: the checks behind the tests, half an hour on 2 cores; all of them, or these:
+# check.sh [PART...]: the checks behind the tests, half an hour on 2 cores (docs/limits.md); all of them, or these:
 #   format     clang-format of every source file
 #   kernels    the OpenCL kernels' syntax, for devices that are not here
 #   oclgrind   every kernel in a simulated device that reports out-of-bounds accesses, data races and uninitialised values
