@@ -9,8 +9,7 @@ CLI::App* add_agree(CLI::App& app, Options& options, AgreeTexts& texts) {
   CLI::App* agree = app.add_subcommand(
       "agree", "Whether every backend, device, thread count and vector width computes the same water, level by level");
   agree->add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
-  add(*agree, "--pressure", texts.pressure, "wcsph, mueller or dfsph; else what the scene says, else wcsph")
-      ->type_name("NAME");
+  add_pressure(*agree, texts.pressure);
   add(*agree, "--particles", options.particles, "Change the spacing so that about N particles result (at most 1,000)")
       ->check(CLI::Range(std::int64_t{1}, scene_keys::k_max_particles))
       ->type_name("N");

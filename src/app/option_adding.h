@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/checks.h"
+#include "core/settings.h"
 
 namespace squall::app {
 
@@ -22,6 +23,12 @@ inline std::string variable_of(std::string option) {
 template <class Value>
 CLI::Option* add(CLI::App& command, const std::string& name, Value& value, const std::string& help) {
   return command.add_option(name, value, help)->envname(variable_of(name))->check(not_empty());
+}
+
+/// --pressure with one solver.
+inline void add_pressure(CLI::App& command, std::string& text) {
+  const std::string help = "wcsph, mueller or dfsph; else what the scene says, else ";
+  add(command, "--pressure", text, help + to_string(Settings{}.pressure))->type_name("NAME");
 }
 
 /// Makes an option take several values, separated by commas or by naming it again.

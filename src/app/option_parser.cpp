@@ -74,8 +74,7 @@ void add_particles(CLI::App& command, Options& options) {
 
 void add_water_options(CLI::App& command, Options& options, Raw& raw) {
   command.add_option("scene", options.scene, "Scene file (TOML)")->required()->type_name("SCENE");
-  add(command, "--pressure", raw.pressure, "wcsph, mueller or dfsph; else what the scene says, else wcsph")
-      ->type_name("NAME");
+  add_pressure(command, raw.pressure);
   add(command, "--dt-max", options.dt_max_s, "Longest sub-step [s]; else the scene's")
       ->check(within(1e-7, 1.0))
       ->type_name("S");

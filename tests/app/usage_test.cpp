@@ -23,6 +23,20 @@ TEST(Usage, HelpAndVersionAreFine) {
   }
 }
 
+// What runs where neither an option nor the scene says a solver.
+TEST(Usage, HelpNamesTheSolverThatIsTheDefault) {
+  const Outcome scene = squall({"run", k_tiny, "--print-scene"});
+  ASSERT_EQ(scene.code, 0) << scene.err;
+  const std::string key = "pressure = \"";
+  const std::size_t begin = scene.out.find(key) + key.size();
+  const std::string name = scene.out.substr(begin, scene.out.find('"', begin) - begin);
+  ASSERT_FALSE(name.empty());
+  for (const char* command : {"run", "compare", "sweep", "agree"}) {
+    const std::string help = squall({command, "--help"}).out;
+    EXPECT_NE(help.find("else what the scene says, else " + name + "\n"), std::string::npos) << command << help;
+  }
+}
+
 TEST(Usage, CommandsThatAreNotThere) {
   expect_usage_error({}, "a command is missing");
   expect_usage_error({"rum"}, "'rum' is unknown");
