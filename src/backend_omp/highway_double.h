@@ -24,48 +24,10 @@ HWY_INLINE int append_lanes(int* list, int first, Mask m, int limit) {
   return __builtin_popcount(bits);
 }
 
-/// Blocks of two doubles, 2 records of 8 doubles apart.
-HWY_INLINE hn::Vec<Scalars> load_blocks(const double* from) {
-  const hn::FixedTag<double, 2> block;
-  const hn::FixedTag<double, 4> two;
-  const auto low = hn::Combine(two, hn::LoadU(block, from + 16), hn::LoadU(block, from));
-#if HWY_STATIC_TARGET <= HWY_AVX3
-  return hn::Combine(Scalars(), hn::Combine(two, hn::LoadU(block, from + 48), hn::LoadU(block, from + 32)), low);
-#else
-  return low;
-#endif
-}
-HWY_INLINE void store_blocks(hn::Vec<Scalars> blocks, double* to) {
-  const hn::FixedTag<double, 2> block;
-#if HWY_STATIC_TARGET <= HWY_AVX3
-  const hn::FixedTag<double, 4> two;
-  const auto high = hn::UpperHalf(two, blocks);
-  hn::StoreU(hn::LowerHalf(block, high), block, to + 32);
-  hn::StoreU(hn::UpperHalf(block, high), block, to + 48);
-  const auto low = hn::LowerHalf(two, blocks);
-#else
-  const auto low = blocks;
-#endif
-  hn::StoreU(hn::LowerHalf(block, low), block, to);
-  hn::StoreU(hn::UpperHalf(block, low), block, to + 16);
-}
-
-/// Half the fields of k_lanes records of 8 doubles: fields[f] has double `first` + f of every record, one lane each;
-/// `first` is 0 or 4. Two fields at a time: even records' in one vector, odd ones' in another, interleaved.
-HWY_INLINE void load_fields(const double* records, int first, Pack* fields) {
-  const Scalars d;
-  for (int f = 0; f < 4; f += 2) {
-    const auto even = load_blocks(records + first + f), odd = load_blocks(records + 8 + first + f);
-    fields[f] = Pack(hn::InterleaveLower(d, even, odd));
-    fields[f + 1] = Pack(hn::InterleaveUpper(d, even, odd));
-  }
-}
-HWY_INLINE void store_fields(double* records, int first, const Pack* fields) {
-  const Scalars d;
-  for (int f = 0; f < 4; f += 2) {
-    store_blocks(hn::InterleaveLower(d, fields[f].lanes, fields[f + 1].lanes), records + first + f);
-    store_blocks(hn::InterleaveUpper(d, fields[f].lanes, fields[f + 1].lanes), records + 8 + first + f);
-  }
+/// See highway_pack.h.
+HWY_INLINE void transpose_blocks(const hn::Vec<Scalars>* from, hn::Vec<Scalars>* to) {
+  to[0] = hn::InterleaveLower(Scalars(), from[0], from[1]);
+  to[1] = hn::InterleaveUpper(Scalars(), from[0], from[1]);
 }
 
 /// Sum of convergence_term over the lanes of `valid`.

@@ -67,6 +67,59 @@ HWY_INLINE Scalar first_lane(Pack a) { return hn::GetLane(a.lanes); }
 HWY_INLINE Pack smallest_lane(Pack a) { return Pack(hn::MinOfLanes(Scalars(), a.lanes)); }
 HWY_INLINE Pack largest_lane(Pack a) { return Pack(hn::MaxOfLanes(Scalars(), a.lanes)); }
 
+/// Scalars in a block: vectors meet records of 8 Scalars in blocks of 16 bytes.
+constexpr int k_block = 16 / static_cast<int>(sizeof(Scalar));
+
+/// The block at `from` and those k_block, 2 k_block, ... records further, as many as a vector holds.
+HWY_INLINE hn::Vec<Scalars> load_blocks(const Scalar* from) {
+  const hn::FixedTag<Scalar, k_block> block;
+  const hn::FixedTag<Scalar, 2 * k_block> two;
+  const auto low = hn::Combine(two, hn::LoadU(block, from + 8 * k_block), hn::LoadU(block, from));
+#if HWY_STATIC_TARGET <= HWY_AVX3
+  const auto high = hn::Combine(two, hn::LoadU(block, from + 24 * k_block), hn::LoadU(block, from + 16 * k_block));
+  return hn::Combine(Scalars(), high, low);
+#else
+  return low;
+#endif
+}
+HWY_INLINE void store_blocks(hn::Vec<Scalars> blocks, Scalar* to) {
+  const hn::FixedTag<Scalar, k_block> block;
+#if HWY_STATIC_TARGET <= HWY_AVX3
+  const hn::FixedTag<Scalar, 2 * k_block> two;
+  const auto high = hn::UpperHalf(two, blocks);
+  hn::StoreU(hn::LowerHalf(block, high), block, to + 16 * k_block);
+  hn::StoreU(hn::UpperHalf(block, high), block, to + 24 * k_block);
+  const auto low = hn::LowerHalf(two, blocks);
+#else
+  const auto low = blocks;
+#endif
+  hn::StoreU(hn::LowerHalf(block, low), block, to);
+  hn::StoreU(hn::UpperHalf(block, low), block, to + 8 * k_block);
+}
+
+/// k_block vectors of blocks: lane i of block b of vector f becomes lane f of block b of vector i. Each precision's
+/// own.
+HWY_INLINE void transpose_blocks(const hn::Vec<Scalars>* from, hn::Vec<Scalars>* to);
+
+/// Half the fields of k_lanes records of 8 Scalars: fields[f] has Scalar `first` + f of every record, one lane each;
+/// `first` is 0 or 4.
+HWY_INLINE void load_fields(const Scalar* records, int first, Pack* fields) {
+  for (int f = 0; f < 4; f += k_block) {
+    hn::Vec<Scalars> blocks[k_block], columns[k_block];
+    for (int i = 0; i < k_block; ++i) blocks[i] = load_blocks(records + 8 * i + first + f);
+    transpose_blocks(blocks, columns);
+    for (int i = 0; i < k_block; ++i) fields[f + i] = Pack(columns[i]);
+  }
+}
+HWY_INLINE void store_fields(Scalar* records, int first, const Pack* fields) {
+  for (int f = 0; f < 4; f += k_block) {
+    hn::Vec<Scalars> blocks[k_block], columns[k_block];
+    for (int i = 0; i < k_block; ++i) columns[i] = fields[f + i].lanes;
+    transpose_blocks(columns, blocks);
+    for (int i = 0; i < k_block; ++i) store_blocks(blocks[i], records + 8 * i + first + f);
+  }
+}
+
 /// The numbers of the bits that are set in a byte, lowest first.
 struct SetBits {
   std::uint8_t numbers[256][8] = {};

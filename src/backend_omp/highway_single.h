@@ -29,7 +29,7 @@ HWY_INLINE int append_lanes(int* list, int first, Mask m, int limit) {
 #endif
 }
 
-/// Four vectors, each blocks of four floats: lane i of block b of vector f becomes lane f of block b of vector i.
+/// See highway_pack.h.
 HWY_INLINE void transpose_blocks(const hn::Vec<Scalars>* from, hn::Vec<Scalars>* to) {
   const Scalars d;
   const hn::RepartitionToWide<Scalars> wide;
@@ -41,47 +41,6 @@ HWY_INLINE void transpose_blocks(const hn::Vec<Scalars>* from, hn::Vec<Scalars>*
   to[1] = hn::BitCast(d, hn::InterleaveUpper(wide, low_0, low_1));
   to[2] = hn::BitCast(d, hn::InterleaveLower(wide, high_0, high_1));
   to[3] = hn::BitCast(d, hn::InterleaveUpper(wide, high_0, high_1));
-}
-
-/// Blocks of four floats, 4 records of 8 floats apart.
-HWY_INLINE hn::Vec<Scalars> load_blocks(const float* from) {
-  const hn::FixedTag<float, 4> block;
-  const hn::FixedTag<float, 8> two;
-  const auto low = hn::Combine(two, hn::LoadU(block, from + 32), hn::LoadU(block, from));
-#if HWY_STATIC_TARGET <= HWY_AVX3
-  return hn::Combine(Scalars(), hn::Combine(two, hn::LoadU(block, from + 96), hn::LoadU(block, from + 64)), low);
-#else
-  return low;
-#endif
-}
-HWY_INLINE void store_blocks(hn::Vec<Scalars> blocks, float* to) {
-  const hn::FixedTag<float, 4> block;
-#if HWY_STATIC_TARGET <= HWY_AVX3
-  const hn::FixedTag<float, 8> two;
-  const auto high = hn::UpperHalf(two, blocks);
-  hn::StoreU(hn::LowerHalf(block, high), block, to + 64);
-  hn::StoreU(hn::UpperHalf(block, high), block, to + 96);
-  const auto low = hn::LowerHalf(two, blocks);
-#else
-  const auto low = blocks;
-#endif
-  hn::StoreU(hn::LowerHalf(block, low), block, to);
-  hn::StoreU(hn::UpperHalf(block, low), block, to + 32);
-}
-
-/// Half the fields of k_lanes records of 8 floats: fields[f] has float `first` + f of every record, one lane each;
-/// `first` is 0 or 4.
-HWY_INLINE void load_fields(const float* records, int first, Pack* fields) {
-  hn::Vec<Scalars> blocks[4], columns[4];
-  for (int i = 0; i < 4; ++i) blocks[i] = load_blocks(records + 8 * i + first);
-  transpose_blocks(blocks, columns);
-  for (int f = 0; f < 4; ++f) fields[f] = Pack(columns[f]);
-}
-HWY_INLINE void store_fields(float* records, int first, const Pack* fields) {
-  hn::Vec<Scalars> blocks[4], columns[4];
-  for (int f = 0; f < 4; ++f) columns[f] = fields[f].lanes;
-  transpose_blocks(columns, blocks);
-  for (int i = 0; i < 4; ++i) store_blocks(blocks[i], records + 8 * i + first);
 }
 
 /// Sum of convergence_term over the lanes of `valid`.
