@@ -89,6 +89,10 @@ void check_contradictions(const Options& options) {
     throw UsageError("--simd belongs to the backends omp and opencl; reference has no such choice");
   if (several_threads(options))
     throw UsageError("backend reference has one thread; leave --threads out or pick another --backend");
+  if (options.command == Command::agree)
+    throw UsageError(
+        "agree holds backends against the reference, which always takes part; reference alone leaves nothing to "
+        "compare: name omp or opencl too, or leave --backend out");
 }
 
 }  // namespace squall::app

@@ -15,7 +15,8 @@ using IsFlag = std::function<bool(const std::string& option)>;
 /// for each.
 std::vector<std::string> drop_contradicted_variables(const IsFlag& is_flag, Options& options);
 
-/// Throws UsageError for an option that belongs to backends which do not take part.
+/// Throws UsageError for an option that belongs to backends which do not take part, and for backends that leave `agree`
+/// nothing to compare.
 void check_contradictions(const Options& options);
 
 }  // namespace squall::app

@@ -87,8 +87,10 @@ TEST(AgreeCommand, RefusesWhatItCannotDo) {
   EXPECT_EQ(squall({"agree", k_tiny, "--json", k_tiny}).code, 2) << "the scene itself";
   EXPECT_EQ(squall({"agree", k_tiny, "--device", "no such device"}).code, 4);
   const Outcome alone = squall({"agree", k_tiny, "--backend", "reference"});
-  EXPECT_EQ(alone.code, 4);
-  EXPECT_THAT(alone.err, HasSubstr("nothing to hold against the reference"));
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_EQ(alone.out, "");
+  EXPECT_THAT(alone.err, HasSubstr("reference alone leaves nothing to compare"));
+  EXPECT_THAT(alone.err, HasSubstr("omp or opencl"));
 }
 
 }  // namespace
