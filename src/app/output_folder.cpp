@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/earlier_rows.h"
+#include "app/folder_files.h"
 #include "core/checkpoint.h"
 #include "core/errors.h"
 #include "harness/measures.h"
@@ -67,28 +68,10 @@ OutputFolder::OutputFolder(const std::string& path, const Workload& workload, st
   }
   // A device that fails before the first frame must not cost the results of an earlier run. One that goes on keeps
   // what they share and cuts the rest at once: it would come again.
-  if (earlier_frames_ == 0 && holds_results())
-    check_writable();
+  if (earlier_frames_ == 0 && any_exists(own_files(path_)))
+    check_writable({path_ / "scene.toml", path_ / "frames.csv", path_ / "series.csv"});
   else
     begin();
-}
-
-bool OutputFolder::holds_results() const {
-  const auto files = own_files(path_);
-  std::error_code error;
-  return std::any_of(files.begin(), files.end(),
-                     [&](const auto& file) { return std::filesystem::exists(file, error); });
-}
-
-/// Tries without changing what a file holds.
-void OutputFolder::check_writable() const {
-  for (const char* name : {"scene.toml", "frames.csv", "series.csv"}) {
-    const std::filesystem::path file = path_ / name;
-    std::error_code error;
-    const bool is_new = !std::filesystem::exists(file, error);
-    check(std::ofstream(file, std::ios::app), file);
-    if (is_new) std::filesystem::remove(file, error);
-  }
 }
 
 void OutputFolder::begin() {
@@ -97,7 +80,7 @@ void OutputFolder::begin() {
   remove_old_files();
   auto scene = open("scene.toml");
   scene << print_workload(workload_) << std::flush;
-  check(scene, path_ / "scene.toml");
+  check_written(scene, path_ / "scene.toml");
   std::ostringstream header;
   harness::write_frames_header(header);
   frames_ = open_rows("frames.csv", header.str());
@@ -154,7 +137,7 @@ std::ofstream OutputFolder::open_rows(const std::string& name, const std::string
     return file;
   }
   std::ofstream file(path_ / name, std::ios::app);
-  check(file, path_ / name);
+  check_written(file, path_ / name);
   return file;
 }
 
@@ -171,12 +154,8 @@ void OutputFolder::open_gauges(const Scene& scene, Pressure pressure) {
 
 std::ofstream OutputFolder::open(const std::string& name) const {
   std::ofstream file(path_ / name);
-  check(file, path_ / name);
+  check_written(file, path_ / name);
   return file;
-}
-
-void OutputFolder::check(const std::ofstream& file, const std::filesystem::path& path) {
-  if (!file) throw InputError(path.string() + ": cannot write this file; check the folder's rights and free space");
 }
 
 void OutputFolder::after_frame(const harness::Run& run, int save_every) {
@@ -205,7 +184,7 @@ void OutputFolder::save_particles(const harness::Run& run) const {
   auto file = open(name);
   harness::write_particles(file, run.scene(), run.state());
   file.flush();
-  check(file, path_ / name);
+  check_written(file, path_ / name);
 }
 
 void OutputFolder::flush() {
@@ -218,13 +197,13 @@ void OutputFolder::flush() {
 void OutputFolder::finish() {
   if (!begun_) return;
   frames_.flush();
-  check(frames_, path_ / "frames.csv");
+  check_written(frames_, path_ / "frames.csv");
   if (!series_.is_open()) return;
   series_.flush();
-  check(series_, path_ / "series.csv");
+  check_written(series_, path_ / "series.csv");
   if (!gauges_file_.is_open()) return;
   gauges_file_.flush();
-  check(gauges_file_, path_ / "gauges.csv");
+  check_written(gauges_file_, path_ / "gauges.csv");
 }
 
 }  // namespace squall::app

@@ -40,15 +40,12 @@ class OutputFolder {
  private:
   void check_earlier_scene(const Workload& workload) const;
   void check_earlier_gauges(const Workload& workload) const;
-  bool holds_results() const;
-  void check_writable() const;
   void begin();
   void remove_old_files() const;
   void open_series();
   void open_gauges(const Scene& scene, Pressure pressure);
   std::ofstream open(const std::string& name) const;
   std::ofstream open_rows(const std::string& name, const std::string& header) const;
-  static void check(const std::ofstream& file, const std::filesystem::path& path);
   void add_gauges(const harness::Run& run, double time_s);
   void save_particles(const harness::Run& run) const;
 

@@ -2,18 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "app/folder_files.h"
 #include "core/errors.h"
 #include "harness/report/gnuplot.h"
 
 namespace squall::app {
-
-namespace {
-
-void check(const std::ofstream& file, const std::filesystem::path& path) {
-  if (!file) throw InputError(path.string() + ": cannot write this file; check the folder's rights and free space");
-}
-
-}  // namespace
 
 std::vector<std::filesystem::path> SweepFolder::own_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -27,20 +22,36 @@ SweepFolder::SweepFolder(const std::string& path) : path_(path) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
+  if (any_exists(own_files(path_)))
+    check_writable({path_ / "points.csv", path_ / "sweep.json", path_ / "report.html"});
+  else
+    begin();
+}
+
+void SweepFolder::begin() {
+  begun_ = true;
+  std::error_code error;
   for (const auto& file : own_files(path_)) std::filesystem::remove(file, error);
   points_.open(path_ / "points.csv");
   harness::write_points_header(points_);
   points_.flush();
-  check(points_, path_ / "points.csv");
+  check_written(points_, path_ / "points.csv");
 }
 
 void SweepFolder::add_points(const std::vector<harness::SweepPoint>& points) {
-  for (const auto& point : points) harness::write_point(points_, point);
+  waiting_.insert(waiting_.end(), points.begin(), points.end());
+  const bool any_frame =
+      std::any_of(points.begin(), points.end(), [](const auto& point) { return point.row.frames > 0; });
+  if (!begun_ && !any_frame) return;
+  if (!begun_) begin();
+  for (const auto& point : waiting_) harness::write_point(points_, point);
+  waiting_.clear();
   points_.flush();
-  check(points_, path_ / "points.csv");
+  check_written(points_, path_ / "points.csv");
 }
 
 void SweepFolder::finish(const harness::SweepResult& result) {
+  if (!begun_) return;
   write("sweep.json", harness::json_text(harness::to_json(result)));
   std::vector<harness::Picture> pictures;
   for (const auto& plot : harness::sweep_plots(result)) {
@@ -53,7 +64,7 @@ void SweepFolder::finish(const harness::SweepResult& result) {
 void SweepFolder::write(const std::string& name, const std::string& text) const {
   std::ofstream file(path_ / name);
   file << text << std::flush;
-  check(file, path_ / name);
+  check_written(file, path_ / name);
 }
 
 }  // namespace squall::app

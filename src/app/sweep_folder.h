@@ -11,7 +11,8 @@
 namespace squall::app {
 
 /// The folder of `sweep --out`: report.html, a file per plot, points.csv and sweep.json. Made if missing; files of
-/// these names from an earlier sweep are removed. Throws InputError for what cannot be written.
+/// these names from an earlier sweep are removed as soon as a run has done a frame, and not before. Throws InputError
+/// for what cannot be written.
 class SweepFolder {
  public:
   explicit SweepFolder(const std::string& path);
@@ -21,13 +22,17 @@ class SweepFolder {
 
   /// Adds a size to points.csv at once, so that it is there whatever happens later.
   void add_points(const std::vector<harness::SweepPoint>& points);
-  /// Draws the plots and writes the rest. Throws DeviceError if gnuplot does not draw; sweep.json is written before.
+  /// Draws the plots and writes the rest, unless the folder keeps an earlier sweep. Throws DeviceError if gnuplot does
+  /// not draw; sweep.json is written before.
   void finish(const harness::SweepResult& result);
 
  private:
+  void begin();
   void write(const std::string& name, const std::string& text) const;
 
   std::filesystem::path path_;
+  bool begun_ = false;
+  std::vector<harness::SweepPoint> waiting_;  ///< without a frame; not worth earlier results
   std::ofstream points_;
 };
 

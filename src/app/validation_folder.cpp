@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
+#include "app/folder_files.h"
 #include "core/errors.h"
 #include "harness/report/gnuplot.h"
 #include "harness/validation/report.h"
@@ -24,10 +26,37 @@ ValidationFolder::ValidationFolder(const std::string& path) : path_(path) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
-  write("validate.json", "");
+  // Also where the folder is empty: what cannot be written is better known before hours of runs.
+  check_writable(own_files(path_));
+}
+
+bool ValidationFolder::is_worth(const harness::CaseResult& result) const {
+  const auto& runs = result.runs;
+  if (std::any_of(runs.begin(), runs.end(), [](const auto& run) { return run.steps > 0; })) return true;
+  auto files = own_files(path_);
+  for (const auto& run : runs) files.push_back(series_file(path_, result.what.name, run.plan));
+  return !any_exists(files);
 }
 
 void ValidationFolder::add(const harness::CaseResult& result) {
+  if (!begun_ && !is_worth(result)) {
+    waiting_.push_back(result);
+    return;
+  }
+  begin();
+  write_case(result);
+}
+
+void ValidationFolder::begin() {
+  if (begun_) return;
+  begun_ = true;
+  std::error_code error;
+  for (const auto& file : own_files(path_)) std::filesystem::remove(file, error);
+  for (const auto& result : waiting_) write_case(result);
+  waiting_.clear();
+}
+
+void ValidationFolder::write_case(const harness::CaseResult& result) {
   for (const auto& run : result.runs) {
     std::ostringstream text;
     std::vector<double> times;
@@ -43,6 +72,7 @@ void ValidationFolder::add(const harness::CaseResult& result) {
 
 void ValidationFolder::finish(const harness::Context& context, const std::vector<harness::CaseResult>& results,
                               const std::vector<std::string>& notes) {
+  if (!waiting_.empty()) return;
   write("validate.json", harness::json_text(harness::to_json(context, results, notes)));
   write("report.html", harness::validation_html(context, results, pictures_, notes));
 }
@@ -50,8 +80,7 @@ void ValidationFolder::finish(const harness::Context& context, const std::vector
 void ValidationFolder::write(const std::string& name, const std::string& text) const {
   std::ofstream file(path_ / name);
   file << text << std::flush;
-  if (!file)
-    throw InputError((path_ / name).string() + ": cannot write this file; check the folder's rights and free space");
+  check_written(file, path_ / name);
 }
 
 }  // namespace squall::app

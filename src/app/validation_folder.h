@@ -10,7 +10,8 @@
 namespace squall::app {
 
 /// The folder of `validate --out`: report.html, validate.json, and per case a plot of each check and a CSV file of each
-/// run. Made if missing; files of these names are replaced. Throws InputError for what cannot be written.
+/// run. Made if missing; files of these names are replaced, report.html and validate.json of an earlier validation
+/// removed as soon as a run has done a frame, and not before. Throws InputError for what cannot be written.
 class ValidationFolder {
  public:
   explicit ValidationFolder(const std::string& path);
@@ -23,14 +24,20 @@ class ValidationFolder {
 
   /// Writes the time series and the plots of a case. Throws DeviceError if gnuplot does not draw.
   void add(const harness::CaseResult& result);
-  /// Writes validate.json and report.html.
+  /// Writes validate.json and report.html, unless the folder keeps an earlier validation.
   void finish(const harness::Context& context, const std::vector<harness::CaseResult>& results,
               const std::vector<std::string>& notes);
 
  private:
+  /// Whether it may take the place of earlier results: a run that has not done a frame may not.
+  bool is_worth(const harness::CaseResult& result) const;
+  void begin();
+  void write_case(const harness::CaseResult& result);
   void write(const std::string& name, const std::string& text) const;
 
   std::filesystem::path path_;
+  bool begun_ = false;
+  std::vector<harness::CaseResult> waiting_;  ///< without a frame; not worth earlier results
   std::vector<std::pair<std::string, std::string>> pictures_;
 };
 

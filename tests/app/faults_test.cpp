@@ -126,6 +126,59 @@ TEST(Faults, ADeviceThatFailsBeforeItsFirstFrameLeavesEarlierResults) {
   EXPECT_FALSE(std::filesystem::exists(out + "/frame_000002.csv"));
 }
 
+std::vector<std::string> texts_of(const std::string& folder) {
+  std::vector<std::string> texts;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    texts.push_back(entry.path().filename().string() + ": " + text_of(entry.path().string()));
+  std::sort(texts.begin(), texts.end());
+  return texts;
+}
+
+/// A device that fails while it is set up, at the start or in the first frame costs nothing that is in `out`, and
+/// leaves nothing else there; results that are new replace it.
+void expect_earlier_results_stay(std::vector<std::string> arguments, const std::string& out) {
+  arguments.insert(arguments.end(), {"--quiet", "--out", out, "--backend"});
+  const auto on = [&](const char* backend, const Environment& environment = {}) {
+    auto all = arguments;
+    all.emplace_back(backend);
+    return squall(all, environment);
+  };
+  ASSERT_EQ(on("omp").code, 0);
+  const auto earlier = texts_of(out);
+  ASSERT_GT(earlier.size(), 2u);
+  for (const char* what : {"clCreateBuffer -4 3", "clEnqueueNDRangeKernel -5 1", "clEnqueueNDRangeKernel -5 5"}) {
+    EXPECT_EQ(on("opencl", fault(what)).code, 4) << what;
+    EXPECT_EQ(texts_of(out), earlier) << what;
+  }
+  const Outcome again = on("opencl");
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(texts_of(out), earlier);
+}
+
+TEST(Faults, ASweepThatFailsAtOnceLeavesEarlierResults) {
+  const TemporaryFolder folder;
+  expect_earlier_results_stay({"sweep", k_tiny, "--particles", "70", "--frames", "2", "--threads", "1"},
+                              folder / "out");
+}
+
+TEST(Faults, AValidationThatFailsAtOnceLeavesEarlierResults) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "table.csv") << "time_s,x_cm_m\n0,0.1\n0.1,0.1\n";
+  expect_earlier_results_stay(
+      {"validate", k_tiny, "--expected", folder / "table.csv", "--tolerance", "10", "--pressure", "wcsph"},
+      folder / "out");
+}
+
+// With nothing to lose, what there is to say of a failure is written.
+TEST(Faults, ASweepThatFailsInAnEmptyFolderSaysSoThere) {
+  const TemporaryFolder folder;
+  const Outcome outcome = squall({"sweep", k_tiny, "--particles", "70", "--frames", "2", "--backend", "opencl",
+                                  "--quiet", "--out", folder / "out"},
+                                 fault("clEnqueueNDRangeKernel -5 5"));
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_THAT(text_of(folder / "out/sweep.json"), HasSubstr("CL_OUT_OF_RESOURCES"));
+}
+
 TEST(Faults, APlatformWithoutDevicesIsLeftOutWithAReason) {
   const Outcome devices = squall({"devices"}, fault("clGetDeviceIDs -1 1"));
   EXPECT_EQ(devices.code, 0) << devices.err;
