@@ -16,6 +16,7 @@
 #include "app/plans.h"
 #include "app/progress.h"
 #include "app/result_output.h"
+#include "app/row_text.h"
 #include "app/targets.h"
 #include "app/trace_output.h"
 #include "app/tuned_plans.h"
@@ -101,6 +102,8 @@ int command_compare(const Options& options) {
   print_notes(notes_on_length(options, plans, comparison, interrupt.requested()), options.quiet);
   if (!options.json_alone())
     std::cout << headline(workload) << "\n" << comparison_text(comparison, options.budget_ms) << std::flush;
+  else
+    print_notes(convergence_notes(comparison.rows), options.quiet);
   write_result(options, workload, backends, comparison.rows, comparison.agreement);
   if (folder) write_frames(comparison, *folder);
   print_notes(write_trace(options, traced_runs(comparison)), options.quiet);

@@ -218,6 +218,39 @@ TEST(RunCommand, AnInterruptFinishesTheFrameAndWritesWhatWasAsked) { EXPECT_EQ(c
 
 TEST(RunCommand, SigtermDoesSoToo) { EXPECT_EQ(code_after(&Program::terminate), 143); }
 
+TEST(RunCommand, SolvesThatEndAtTheirLimitAreSaidAndNoError) {
+  const TemporaryFolder folder;
+  std::string scene = text_of(k_tiny);
+  scene.insert(scene.find("[fluid]"), "[solver]\nmax_iterations = 1\n\n");
+  const std::string file = folder / "one.toml";
+  std::ofstream(file) << scene;
+  const std::string told = "pressure solves ended at max_iterations above their tolerance";
+  const std::vector<std::string> rest{"--backend", "omp", "--threads", "1", "--frames", "20"};
+  const auto run = [&](const std::string& command, const std::string& which, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{command, which};
+    arguments.insert(arguments.end(), rest.begin(), rest.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = squall(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome;
+  };
+  for (const char* command : {"run", "compare"}) {
+    EXPECT_NE(run(command, file, {}).out.find("warning: "), std::string::npos) << command;
+    EXPECT_NE(run(command, file, {}).out.find(told), std::string::npos) << command;
+    const Outcome alone = run(command, file, {"--json", "-"});
+    EXPECT_NE(alone.err.find(told), std::string::npos) << alone.err;
+    EXPECT_GT(run_of(alone)["unconverged"], 10);
+    EXPECT_LE(run_of(alone)["unconverged"], 2 * run_of(alone)["steps"].get<int>());
+    EXPECT_GT(run_of(alone)["density_error_mean"], 1e-2) << "ten times the tolerance";
+  }
+  const Outcome sweep = run("sweep", file, {"--particles", "70", "--json", "-"});
+  EXPECT_NE(sweep.err.find(told), std::string::npos) << sweep.err;
+  EXPECT_NE(json::parse(sweep.out)["notes"].dump().find(told), std::string::npos);
+  const Outcome enough = run("run", k_tiny, {"--json", "-"});
+  EXPECT_EQ(run_of(enough)["unconverged"], 0);
+  EXPECT_EQ(enough.err.find(told), std::string::npos);
+}
+
 TEST(RunCommand, AForcedSolverThatCannotRunASceneMayBeReplaced) {
   const TemporaryFolder folder;
   std::string text = text_of(k_tiny);

@@ -103,6 +103,24 @@ TEST_F(ValidateCommand, WritesPlotsSeriesAndAPage) {
   EXPECT_TRUE(Json::parse(text_of(path("out/validate.json"))).contains("cases"));
 }
 
+TEST_F(ValidateCommand, SaysWhichSolvesEndedAtTheirLimit) {
+  std::string scene = text_of(path("fall.toml"));
+  scene.replace(scene.find("min_m = [0.3, 0.6"), 0, "velocity_m_s = [0, -9, 0]\n");  // onto the floor
+  write("fall.toml", scene + "[solver]\nmax_iterations = 1\n");
+  write_case("value = 0.5\ntolerance = 10\n");
+  const Outcome outcome = validate({path("case.toml"), "--json", path("r.json")});
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("pressure solves ended at max_iterations above their tolerance"));
+  const Json runs = Json::parse(text_of(path("r.json")))["cases"][0]["runs"];
+  ASSERT_EQ(runs.size(), 2u);
+  for (const Json& run : runs) {
+    EXPECT_EQ(run.contains("unconverged"), run["pressure"] == "dfsph");
+    if (run["pressure"] == "dfsph") {
+      EXPECT_GT(run["unconverged"], 0);
+    }
+  }
+}
+
 TEST_F(ValidateCommand, ListsAndRunsWhatComesWithSquall) {
   const Outcome list = validate({"--list"});
   EXPECT_EQ(list.code, 0);

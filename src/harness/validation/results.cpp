@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/state_hash.h"
+#include "harness/unconverged.h"
 
 namespace squall::harness {
 
@@ -73,6 +74,7 @@ Json run_json(const CaseRun& run) {
             {"iterations_mean", run.iterations_mean},
             {"clamps", run.clamps},
             {"wall_s", run.wall_s}};
+  if (run.plan.settings.pressure == Pressure::dfsph) json["unconverged"] = run.unconverged;
   if (!run.error.empty()) json["error"] = run.error;
   if (run.interrupted) json["interrupted"] = true;
   return json;
@@ -180,6 +182,9 @@ std::vector<std::string> remarks(const CaseResult& result) {
       else if (!verdict.finding.passed)
         all.push_back(fmt::format("{}: FAILS{}", what, problem.empty() ? "" : ": " + problem));
     }
+  for (const auto& run : result.runs)
+    if (const auto warning = unconverged_text(run.unconverged, run.steps); !warning.empty())
+      all.push_back(fmt::format("{}: {}", run_name(run), warning));
   return all;
 }
 

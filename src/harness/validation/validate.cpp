@@ -42,6 +42,7 @@ void summarise(const Run& run, CaseRun& result) {
   result.iterations_mean = row.iterations_mean;
   result.steps = row.steps;
   result.clamps = row.clamps;
+  result.unconverged = row.unconverged;
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ struct CaseRun {
   std::int64_t particles = 0;
   double simulated_s = 0.0, wall_s = 0.0, iterations_mean = 0.0;
   std::int64_t steps = 0, clamps = 0;
+  std::int64_t unconverged = 0;  ///< solves that ended at max_iterations above their tolerance
   TimeSeries series;
   std::vector<Verdict> verdicts;  ///< one per check of the case
 };
