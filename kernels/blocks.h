@@ -129,6 +129,14 @@ static inline void make_block(__constant Params* p, __global const Scalar* x, in
   block->last_x = min(high + SQUALL_X_FINENESS, p->cells_x - 1);
 }
 
+__constant Mask k_only_even[2] = {(Mask)(-1), (Mask)(0)};
+
+/* Adds the value, to which sorted particle j amounts, to the sum of its parity, and exactly zero to the other. */
+static inline void add_by_parity(Real value, int j, Real* even, Real* odd) {
+  *even += as_real(as_mask(value) & k_only_even[j & 1]);
+  *odd += as_real(as_mask(value) & k_only_even[1 - (j & 1)]);
+}
+
 /* Whether any lane is near a wall of the container. */
 static inline int near_container(__constant Params* p, Real x, Real y, Real z) {
   Real reach = (Real)(p->support_radius);

@@ -34,8 +34,6 @@ static inline Real kernel_value(__constant Params* p, Real r2, Real x, Real y, R
 #endif
 }
 
-__constant Mask k_only_even[2] = {(Mask)(-1), (Mask)(0)};
-
 /* Adds the candidates; keeps in the list, and counts, those that any lane has within reach. */
 static inline int sum_batch(__constant Params* p, const Places* places, Real x, Real y, Real z, int count, int* list,
                             KernelSum* sum) {
@@ -47,8 +45,7 @@ static inline int sum_batch(__constant Params* p, const Places* places, Real x, 
     list[kept] = j;
     kept += any_lane(r2 < (Real)(p->list_squared));
     Real value = kernel_value(p, r2, dx, dy, dz);
-    sum->even += as_real(as_mask(value) & k_only_even[j & 1]); /* the value or exactly zero */
-    sum->odd += as_real(as_mask(value) & k_only_even[1 - (j & 1)]);
+    add_by_parity(value, j, &sum->even, &sum->odd);
   }
   return kept;
 }

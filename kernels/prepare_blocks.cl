@@ -16,8 +16,6 @@ typedef struct {
   Mask neighbours; /* minus their number, self included */
 } PreparedSums;
 
-__constant Mask k_only_even[2] = {(Mask)(-1), (Mask)(0)};
-
 /* Adds the candidates; keeps in the list those that any lane has within reach. */
 static inline int sum_batch(__constant Params* p, const Places* places, Real x, Real y, Real z, int count, int* list,
                             PreparedSums* sums) {
@@ -32,8 +30,7 @@ static inline int sum_batch(__constant Params* p, const Places* places, Real x, 
     Real value = cubic_value(u, w), slope = cubic_slope(u, w);
     list[kept] = j;
     kept += any_lane(r2 < (Real)(p->list_squared));
-    sums->even += as_real(as_mask(value) & k_only_even[j & 1]); /* the value or exactly zero */
-    sums->odd += as_real(as_mask(value) & k_only_even[1 - (j & 1)]);
+    add_by_parity(value, j, &sums->even, &sums->odd);
     sums->neighbours += u > (Real)(0);
     sums->squares = fma(slope, slope, sums->squares);
     add_scaled(&sums->gradient, pair_weight(slope, r, (Real)(p->tiny)), dx, dy, dz);
