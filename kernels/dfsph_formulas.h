@@ -1,13 +1,15 @@
 /* dfsph: the incompressible pressure solve (Bender & Koschier 2015, SCA; 2017, TVCG 23:1193), as docs/dfsph.md derives
-   it. Unknown is one impulse j_i >= 0 per particle, j = k dt with k = p/rho0 [m^2/s]. With G_ij = V grad_i W_ij and the
-   gradient e_i of the open share of the support,
+   it. Unknown is one impulse j_i >= 0 per particle, j = k dt with k = p/rho0 [m^2/s]. With -G_ij = -V grad_i W_ij =
+   force_scale weight_ij (x_i - x_j), the gradient e_i of the open share of the support, and the direction h_i in which
+   a particle's own density falls fastest,
 
-     velocity  v_i += sum_j (j_i + j_j) (-G_ij) + j_i e_i
-     rate      D_i  = sum_j (v_i - v_j).G_ij - v_i.e_i             (d rho/dt, relative; the adjoint)
+     descent   h_i = sum_j (-G_ij) + e_i
+     velocity  v_i += sum_j j_j (-G_ij) + j_i h_i
+     rate      D_i  = sum_j v_j.(-G_ij) - v_i.h_i               (d rho/dt, relative; the adjoint)
      lack      s_i  = room_i - dt D_i >= 0   wherever j_i > 0 only s_i = 0
 
-   -G_ij = force_scale weight_ij (x_i - x_j): a backend may keep the weight of a pair or compute it again, the bits are
-   the same. Sums over pairs are one chain each, in canonical order. */
+   A backend may keep the weight of a pair or compute it again, the bits are the same. Sums over pairs are one chain
+   each, in canonical order. */
 #ifndef SQUALL_DFSPH_FORMULAS_H
 #define SQUALL_DFSPH_FORMULAS_H
 
@@ -20,20 +22,19 @@ SQUALL_FORMULA Real no_more_than(Real a, Real b) { return a - max0(a - b); }
 
 /* ---- pairs ------------------------------------------------------------------------------------------------------ */
 
-/* Of a pair, without the scale: slope/r; 0 at r = 0 (the slope is) and from H on. */
-SQUALL_FORMULA Real pair_weight(Real slope, Real r, Real tiny) { return slope / (r + tiny); }
+/* A sum of |G_ij|^2 without the scale, and a pair's. */
+SQUALL_FORMULA Real plus_squared_slope(Real sum, Real weight, Real r2) { return fma(weight * r2, weight, sum); }
 
-/* Of a pair when pressure and viscosity act at once: the factor of x_i - x_j. Viscosity 2(d+2) nu V (v.x)/(x^2 +
-   softening) grad W acts along the line of centres (Monaghan 2005); viscous = 10 nu kick, receding = v_ij.x_ij. */
-SQUALL_FORMULA Real viscous_pair_push(Real impulses, Real viscous, Real receding, Real r2, Real softening) {
-  return nfma(viscous, receding / (r2 + softening), impulses);
+/* Of a pair when pressure and viscosity act at once: the factor of -G_ij. Viscosity acts along the line of centres (as
+   Monaghan 2005; the weight is docs/dfsph.md's); impulse = j_j, viscous = 187/7 nu/H^2 kick, receding = v_ij.x_ij. */
+SQUALL_FORMULA Real viscous_pair_push(Real impulse, Real viscous, Real receding) {
+  return nfma(viscous, receding, impulse);
 }
 
 /* ---- particles: before the solve ----------------------------------------------------------------------------------
  */
 
-/* d D_i/d j_i, up to sign: |sum_j G_ij - e_i|^2 + sum_j |G_ij|^2 [1/m^2]. x, y, z is the first sum without its sign;
-   squares = sum of slope^2. */
+/* - d D_i/d j_i = |h_i|^2 + sum_j |G_ij|^2 [1/m^2]; squares = sum of plus_squared_slope. */
 SQUALL_FORMULA Real pressure_response(Real x, Real y, Real z, Real squares, Real force_scale) {
   return fma(force_scale * force_scale, squares, squared_length(x, y, z));
 }
@@ -41,9 +42,9 @@ SQUALL_FORMULA Real pressure_response(Real x, Real y, Real z, Real squares, Real
 /* 1/response, and 0 where there is next to none: response/(response^2 + guard). */
 SQUALL_FORMULA Real inverse_response(Real response, Real guard) { return response / fma(response, response, guard); }
 
-/* D from the pair sum of weight (v_ij.x_ij) and from v.e. */
-SQUALL_FORMULA Real compression_rate(Real receding_sum, Real force_scale, Real along_opening) {
-  return -fma(force_scale, receding_sum, along_opening);
+/* D from the sum of weight v_j.(x_i - x_j) and from v.h. */
+SQUALL_FORMULA Real compression_rate(Real approaching_sum, Real force_scale, Real along_descent) {
+  return fms(force_scale, approaching_sum, along_descent);
 }
 
 /* Room of the density solve: what may still be compressed, or the share `correction` of what is compressed too much.

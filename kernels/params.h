@@ -12,6 +12,7 @@ SQUALL_NAMESPACE_BEGIN
 #define SQUALL_CUBIC 0
 #define SQUALL_POLY6 1
 #define SQUALL_SPIKY 2
+#define SQUALL_BELL 3
 
 /* Where a lost particle is kept, in m, and the coordinate from which on a particle counts as lost. */
 #define SQUALL_LOST_COORDINATE 1e30f
@@ -30,13 +31,14 @@ SQUALL_STRUCT(Params) {
   Scalar lost_distance;          /* m: outside by more than this is lost */
 
   /* support */
-  Scalar support_radius;       /* H, m */
-  Scalar support_squared;      /* H^2 */
-  Scalar list_squared;         /* H^2 (1 + 1e-5): neighbours are listed up to here, so that no rounding loses one */
-  Scalar inverse_support;      /* 1/H */
-  Scalar inverse_half_support; /* 2/H */
-  Scalar softening;            /* 0.01 (H/2)^2: keeps viscosity finite at r = 0 */
-  Scalar tiny;                 /* 1e-20 m: keeps x/r finite at r = 0 */
+  Scalar support_radius;          /* H, m */
+  Scalar support_squared;         /* H^2 */
+  Scalar list_squared;            /* H^2 (1 + 1e-5): neighbours are listed up to here, so that no rounding loses one */
+  Scalar inverse_support;         /* 1/H */
+  Scalar inverse_half_support;    /* 2/H */
+  Scalar inverse_support_squared; /* 1/H^2 */
+  Scalar softening;               /* 0.01 (H/2)^2: keeps viscosity finite at r = 0 */
+  Scalar tiny;                    /* 1e-20 m: keeps x/r finite at r = 0 */
 
   /* density and forces; what each multiplies is said in sph_formulas.h */
   Scalar density_scale;
@@ -44,7 +46,7 @@ SQUALL_STRUCT(Params) {
   Scalar stiffness;        /* wcsph: c^2/7; mueller: k; m^2/s^2 */
   Scalar tension;          /* 1 keeps negative pressure, 0 clamps it */
   Scalar artificial_scale; /* wcsph: alpha (H/2) c / 2, m^2/s */
-  Scalar viscosity_scale;  /* wcsph: 5 nu; mueller: 2 nu dx^3 45/(pi H^5); dfsph: 10 nu */
+  Scalar viscosity_scale;  /* wcsph: 5 nu; mueller: 2 nu dx^3 45/(pi H^5); dfsph: 187/7 nu/H^2 */
 
   /* dfsph (dfsph_formulas.h) */
   Scalar response_guard;       /* 1/m^4: particles whose response is below its root feel no pressure of their own */

@@ -19,16 +19,15 @@ static inline void add_pair(__constant Params* p, Scalar viscous, Scalar4 place,
   Scalar4 way = place - other_place; /* w means nothing, here and in the sums */
   Scalar r2 = squared_length(way.x, way.y, way.z);
   if (!(r2 < p->list_squared)) return; /* it would add exactly zero */
-  Scalar impulses = motion.w + other_motion.w;
+  Scalar impulse = other_motion.w;
 #if SQUALL_VISCOSITY
   Scalar4 speed = motion - other_motion;
   Scalar receding = dot_product(way.x, way.y, way.z, speed.x, speed.y, speed.z);
-  impulses = viscous_pair_push(impulses, viscous, receding, r2, p->softening);
+  impulse = viscous_pair_push(impulse, viscous, receding);
 #endif
-  sums->pushed = fma((Scalar4)(impulses * weight_of(p, r2)), way, sums->pushed);
+  sums->pushed = fma((Scalar4)(impulse * weight_of(p, r2)), way, sums->pushed);
 #if SQUALL_SMOOTHING
-  Scalar r = sqrt(r2);
-  Scalar value = cubic_value(remaining_support(r, p->inverse_support), remaining_support(r, p->inverse_half_support));
+  Scalar value = bell_value(bell_left(r2, p->inverse_support_squared));
   sums->smoothed = fma((Scalar4)(value), other_motion - motion, sums->smoothed);
 #endif
 }
@@ -65,7 +64,7 @@ __kernel void predict(__global const Scalar4* places, __global const Scalar4* so
     a = with_drag(p, now, a, motion, isolations[i]);
 #endif
     motion = fma((Scalar4)(now->kick), a, motion) +
-             fma((Scalar4)(p->force_scale), sums.pushed, impulse * opening_slope_of(solve, stride, i));
+             fma((Scalar4)(p->force_scale), sums.pushed, impulse * descent_of(solve, stride, i));
 #if SQUALL_SMOOTHING
     motion = fma((Scalar4)(p->smoothing_scale * now->dt), sums.smoothed, motion);
 #endif

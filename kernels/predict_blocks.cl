@@ -17,16 +17,14 @@ static inline void predict_pair(__constant Params* p, Real viscous, const Lanes*
                                 Prediction* sums) {
   Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
   Real r2 = squared_length(x, y, z);
-  Real impulses = a->volume_term + (Real)(b[7]);
+  Real impulse = (Real)(b[7]);
 #if SQUALL_VISCOSITY
   Real receding = dot_product(x, y, z, a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
-  impulses = viscous_pair_push(impulses, viscous, receding, r2, (Real)(p->softening));
+  impulse = viscous_pair_push(impulse, viscous, receding);
 #endif
-  add_scaled(&sums->pushed, impulses * weight_of(p, r2), x, y, z);
+  add_scaled(&sums->pushed, impulse * weight_of(p, r2), x, y, z);
 #if SQUALL_SMOOTHING
-  Real r = sqrt(r2);
-  Real value = cubic_value(remaining_support(r, (Real)(p->inverse_support)),
-                           remaining_support(r, (Real)(p->inverse_half_support)));
+  Real value = bell_value(bell_left(r2, (Real)(p->inverse_support_squared)));
   add_scaled(&sums->smoothed, value, (Real)(b[4]) - a->vx, (Real)(b[5]) - a->vy, (Real)(b[6]) - a->vz);
 #endif
 }
@@ -46,8 +44,8 @@ static inline void predict_from_neighbours(__constant Params* p, Scalar kick, __
 
 /* One component of the velocity to start the density solve from. */
 static inline Real predicted(__constant Params* p, __global const Substep* now, Real v, Real a, Real pushed,
-                             Real from_wall, Real smoothed) {
-  Real next = fma((Real)(now->kick), a, v) + fma((Real)(p->force_scale), pushed, from_wall);
+                             Real from_own, Real smoothed) {
+  Real next = fma((Real)(now->kick), a, v) + fma((Real)(p->force_scale), pushed, from_own);
 #if SQUALL_SMOOTHING
   next = fma((Real)(p->smoothing_scale * now->dt), smoothed, next);
 #endif
@@ -64,15 +62,15 @@ static inline void predict_block(__constant Params* p, __global const Substep* n
   add_drag(p, now, block, at, isolations, &a);
 #endif
   Real impulse = at->volume_term;
-  Real ex = load_field(solve, SQUALL_OPENING_X, stride, block), ey = load_field(solve, SQUALL_OPENING_Y, stride, block),
-       ez = load_field(solve, SQUALL_OPENING_Z, stride, block);
+  Real hx = load_field(solve, SQUALL_DESCENT_X, stride, block), hy = load_field(solve, SQUALL_DESCENT_Y, stride, block),
+       hz = load_field(solve, SQUALL_DESCENT_Z, stride, block);
   scatter(at->x, block, 0, records);
   scatter(at->y, block, 1, records);
   scatter(at->z, block, 2, records);
   scatter((Real)(0), block, 3, records);
-  scatter(predicted(p, now, at->vx, a.x, sums->pushed.x, impulse * ex, sums->smoothed.x), block, 4, records);
-  scatter(predicted(p, now, at->vy, a.y, sums->pushed.y, impulse * ey, sums->smoothed.y), block, 5, records);
-  scatter(predicted(p, now, at->vz, a.z, sums->pushed.z, impulse * ez, sums->smoothed.z), block, 6, records);
+  scatter(predicted(p, now, at->vx, a.x, sums->pushed.x, impulse * hx, sums->smoothed.x), block, 4, records);
+  scatter(predicted(p, now, at->vy, a.y, sums->pushed.y, impulse * hy, sums->smoothed.y), block, 5, records);
+  scatter(predicted(p, now, at->vz, a.z, sums->pushed.z, impulse * hz, sums->smoothed.z), block, 6, records);
   scatter((Real)(0), block, 7, records);
   store_field(impulse, SQUALL_IMPULSE, stride, block, solve);
   store_field(impulse, SQUALL_PROJECTED, stride, block, solve);

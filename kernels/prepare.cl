@@ -13,30 +13,29 @@
 typedef struct {
   Scalar even, odd; /* kernel sums by the parity of the sorted index */
   Scalar squares;   /* of slopes */
-  Scalar4 gradient;
-  int neighbours; /* self included */
+  Scalar4 apart;    /* of weight x_ij */
+  int neighbours;   /* self included */
 } PreparedSums;
 
 static inline void add_candidate(__constant Params* p, Scalar4 from, Scalar4 to, int j, PreparedSums* sums) {
   Scalar4 way = from - to; /* w means nothing, here and in the sum */
   Scalar r2 = squared_length(way.x, way.y, way.z);
   if (!(r2 < p->list_squared)) return; /* it would add exactly zero */
-  Scalar r = sqrt(r2);
-  Scalar u = remaining_support(r, p->inverse_support), w = remaining_support(r, p->inverse_half_support);
-  Scalar slope = cubic_slope(u, w), value = cubic_value(u, w);
+  Scalar left = bell_left(r2, p->inverse_support_squared);
+  Scalar weight = bell_weight(left), value = bell_value(left);
   if (j & 1)
     sums->odd += value;
   else
     sums->even += value;
-  sums->neighbours += u > 0.0f;
-  sums->gradient = fma((Scalar4)(pair_weight(slope, r, p->tiny)), way, sums->gradient);
-  sums->squares = fma(slope, slope, sums->squares);
+  sums->neighbours += left > 0.0f;
+  sums->apart = fma((Scalar4)(weight), way, sums->apart);
+  sums->squares = plus_squared_slope(sums->squares, weight, r2);
 }
 
 static inline void sum_candidates(__constant Params* p, __global const Scalar4* places, __global const int* cell_start,
                                   Scalar4 at, PreparedSums* sums) {
   sums->even = sums->odd = sums->squares = 0.0f;
-  sums->gradient = (Scalar4)(0.0f);
+  sums->apart = (Scalar4)(0.0f);
   sums->neighbours = 0;
   Neighbourhood cells = neighbourhood(p, at.x, at.y, at.z);
   for (int z = cells.first_z; z <= cells.last_z; ++z) {
@@ -61,18 +60,18 @@ __kernel void prepare(__global const Scalar4* places, __global Scalar* records, 
   Scalar ex, ey, ez;
   Scalar share = 1 - opening_with_cores(p, boxes, now->box_count, at.x, at.y, at.z, &ex, &ey, &ez);
   Scalar density = relative_density(kernel_sum, p->density_scale, share);
-  Scalar response =
-      pressure_response(fma(p->force_scale, sums.gradient.x, ex), fma(p->force_scale, sums.gradient.y, ey),
-                        fma(p->force_scale, sums.gradient.z, ez), sums.squares, p->force_scale);
+  Scalar hx = fma(p->force_scale, sums.apart.x, ex), hy = fma(p->force_scale, sums.apart.y, ey),
+         hz = fma(p->force_scale, sums.apart.z, ez);
+  Scalar response = pressure_response(hx, hy, hz, sums.squares, p->force_scale);
   densities[i] = density;
   errors[i] = density - 1;
 #if SQUALL_DRAG
   isolations[i] = isolation(kernel_sum, p->self_value, p->density_scale, share, p->steepness);
 #endif
   if (now->statistics) neighbours[i] = sums.neighbours - 1;
-  solve[field_of(SQUALL_OPENING_X, stride, i)] = ex;
-  solve[field_of(SQUALL_OPENING_Y, stride, i)] = ey;
-  solve[field_of(SQUALL_OPENING_Z, stride, i)] = ez;
+  solve[field_of(SQUALL_DESCENT_X, stride, i)] = hx;
+  solve[field_of(SQUALL_DESCENT_Y, stride, i)] = hy;
+  solve[field_of(SQUALL_DESCENT_Z, stride, i)] = hz;
   solve[field_of(SQUALL_RESPONSE, stride, i)] = response;
   solve[field_of(SQUALL_INVERSE_RESPONSE, stride, i)] = inverse_response(response, p->response_guard);
   solve[field_of(SQUALL_ROOM, stride, i)] = divergence_room(density, p->free_density);

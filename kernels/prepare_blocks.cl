@@ -10,9 +10,9 @@
 #include "wall_openings.h"
 
 typedef struct {
-  Real even, odd; /* kernel sums by the parity of the sorted index */
-  Real squares;   /* of slopes */
-  Vector gradient;
+  Real even, odd;  /* kernel sums by the parity of the sorted index */
+  Real squares;    /* of slopes */
+  Vector apart;    /* of weight x_ij */
   Mask neighbours; /* minus their number, self included */
 } PreparedSums;
 
@@ -24,16 +24,14 @@ static inline int sum_batch(__constant Params* p, const Places* places, Real x, 
     int j = list[k];
     Real dx = x - (Real)(places->x[j]), dy = y - (Real)(places->y[j]), dz = z - (Real)(places->z[j]);
     Real r2 = squared_length(dx, dy, dz);
-    Real r = sqrt(r2);
-    Real u = remaining_support(r, (Real)(p->inverse_support)),
-         w = remaining_support(r, (Real)(p->inverse_half_support));
-    Real value = cubic_value(u, w), slope = cubic_slope(u, w);
+    Real left = bell_left(r2, (Real)(p->inverse_support_squared));
+    Real value = bell_value(left), weight = bell_weight(left);
     list[kept] = j;
     kept += any_lane(r2 < (Real)(p->list_squared));
     add_by_parity(value, j, &sums->even, &sums->odd);
-    sums->neighbours += u > (Real)(0);
-    sums->squares = fma(slope, slope, sums->squares);
-    add_scaled(&sums->gradient, pair_weight(slope, r, (Real)(p->tiny)), dx, dy, dz);
+    sums->neighbours += left > (Real)(0);
+    sums->squares = plus_squared_slope(sums->squares, weight, r2);
+    add_scaled(&sums->apart, weight, dx, dy, dz);
   }
   return kept;
 }
@@ -42,7 +40,7 @@ static inline void sum_candidates(__constant Params* p, const Places* places, __
                                   const Block* block, Real x, Real y, Real z, NeighbourLists* lists,
                                   PreparedSums* sums) {
   sums->even = sums->odd = sums->squares = (Real)(0);
-  sums->gradient.x = sums->gradient.y = sums->gradient.z = (Real)(0);
+  sums->apart.x = sums->apart.y = sums->apart.z = (Real)(0);
   sums->neighbours = (Mask)(0);
   Search search;
   begin_search(p, cell_start, block, x, y, z, &search);
@@ -94,12 +92,12 @@ static inline long prepare_block(__global Scalar* records, __global Scalar* dens
   Real share = (Real)(1) - opening_of(p, boxes, now->box_count, x, y, z, &e);
   Real density = relative_density(kernel_sum, (Real)(p->density_scale), share);
   Real scale = (Real)(p->force_scale);
-  Real response = pressure_response(fma(scale, sums.gradient.x, e.x), fma(scale, sums.gradient.y, e.y),
-                                    fma(scale, sums.gradient.z, e.z), sums.squares, scale);
+  Real hx = fma(scale, sums.apart.x, e.x), hy = fma(scale, sums.apart.y, e.y), hz = fma(scale, sums.apart.z, e.z);
+  Real response = pressure_response(hx, hy, hz, sums.squares, scale);
   store_values(density, block, densities);
-  store_field(e.x, SQUALL_OPENING_X, stride, block, solve);
-  store_field(e.y, SQUALL_OPENING_Y, stride, block, solve);
-  store_field(e.z, SQUALL_OPENING_Z, stride, block, solve);
+  store_field(hx, SQUALL_DESCENT_X, stride, block, solve);
+  store_field(hy, SQUALL_DESCENT_Y, stride, block, solve);
+  store_field(hz, SQUALL_DESCENT_Z, stride, block, solve);
   store_field(response, SQUALL_RESPONSE, stride, block, solve);
   store_field(inverse_response(response, (Real)(p->response_guard)), SQUALL_INVERSE_RESPONSE, stride, block, solve);
 #if SQUALL_DRAG

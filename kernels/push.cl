@@ -20,7 +20,7 @@ static inline Scalar4 pushed_sum(__constant Params* p, __global const Scalar4* r
         Scalar4 way = place - other; /* w means nothing, here and in the sum */
         Scalar r2 = squared_length(way.x, way.y, way.z);
         if (!(r2 < p->list_squared)) continue; /* it would add exactly zero */
-        sum = fma((Scalar4)((place.w + other.w) * weight_of(p, r2)), way, sum);
+        sum = fma((Scalar4)(other.w * weight_of(p, r2)), way, sum);
       }
     }
   }
@@ -36,7 +36,7 @@ __kernel void push(__global Scalar4* records, __global const int* cell_start, __
   Scalar4 sum = pushed_sum(p, records, cell_start, place);
   Scalar4 v = records[2 * (size_t)i + 1];
   Scalar warm = v.w;
-  v += fma((Scalar4)(p->force_scale), sum, change * opening_slope_of(solve, stride, i));
+  v += fma((Scalar4)(p->force_scale), sum, change * descent_of(solve, stride, i));
   v.w = warm;
   records[2 * (size_t)i + 1] = v;
   size_t impulse = field_of(SQUALL_IMPULSE, stride, i);

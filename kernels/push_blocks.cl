@@ -20,15 +20,15 @@ static inline void push_block(__constant Params* p, __global Scalar* records, co
     for (int k = 0; k < count; ++k) {
       __global const Scalar* b = records + 8 * (size_t)found[k];
       Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
-      add_scaled(&sum, (change + (Real)(b[3])) * weight_of(p, squared_length(x, y, z)), x, y, z);
+      add_scaled(&sum, (Real)(b[3]) * weight_of(p, squared_length(x, y, z)), x, y, z);
     }
   }
   Real scale = (Real)(p->force_scale);
-  Real ex = load_field(solve, SQUALL_OPENING_X, stride, block), ey = load_field(solve, SQUALL_OPENING_Y, stride, block),
-       ez = load_field(solve, SQUALL_OPENING_Z, stride, block);
-  scatter(a->vx + fma(scale, sum.x, change * ex), block, 4, records);
-  scatter(a->vy + fma(scale, sum.y, change * ey), block, 5, records);
-  scatter(a->vz + fma(scale, sum.z, change * ez), block, 6, records);
+  Real hx = load_field(solve, SQUALL_DESCENT_X, stride, block), hy = load_field(solve, SQUALL_DESCENT_Y, stride, block),
+       hz = load_field(solve, SQUALL_DESCENT_Z, stride, block);
+  scatter(a->vx + fma(scale, sum.x, change * hx), block, 4, records);
+  scatter(a->vy + fma(scale, sum.y, change * hy), block, 5, records);
+  scatter(a->vz + fma(scale, sum.z, change * hz), block, 6, records);
   store_field(max0(load_field(solve, SQUALL_IMPULSE, stride, block) + change), SQUALL_IMPULSE, stride, block, solve);
 }
 

@@ -8,8 +8,8 @@
 
 #include "solve_pairs.h"
 
-static inline Scalar receding_sum(__constant Params* p, __global const Scalar4* places, __global const Scalar4* records,
-                                  __global const int* cell_start, Scalar4 place, Scalar4 motion) {
+static inline Scalar approaching_sum(__constant Params* p, __global const Scalar4* places,
+                                     __global const Scalar4* records, __global const int* cell_start, Scalar4 place) {
   Scalar sum = 0.0f;
   Neighbourhood cells = neighbourhood(p, place.x, place.y, place.z);
   for (int z = cells.first_z; z <= cells.last_z; ++z) {
@@ -19,7 +19,7 @@ static inline Scalar receding_sum(__constant Params* p, __global const Scalar4* 
         Scalar4 way = place - places[j];
         Scalar r2 = squared_length(way.x, way.y, way.z);
         if (!(r2 < p->list_squared)) continue; /* it would add exactly zero */
-        Scalar4 speed = motion - records[2 * (size_t)j + 1];
+        Scalar4 speed = records[2 * (size_t)j + 1];
         sum = fma(weight_of(p, r2), dot_product(way.x, way.y, way.z, speed.x, speed.y, speed.z), sum);
       }
     }
@@ -34,9 +34,9 @@ __kernel void rate(__global const Scalar4* places, __global Scalar4* records, __
   if (state->solve != this_solve || i >= cell_start[p->cell_count]) return;
   __global const Substep* now = substeps + step;
   Scalar4 motion = records[2 * (size_t)i + 1];
-  Scalar sum = receding_sum(p, places, records, cell_start, places[i], motion);
-  Scalar4 e = opening_slope_of(solve, stride, i);
-  Scalar along = dot_product(motion.x, motion.y, motion.z, e.x, e.y, e.z);
+  Scalar sum = approaching_sum(p, places, records, cell_start, places[i]);
+  Scalar4 h = descent_of(solve, stride, i);
+  Scalar along = dot_product(motion.x, motion.y, motion.z, h.x, h.y, h.z);
   Scalar impulse = solve[field_of(SQUALL_IMPULSE, stride, i)];
   Scalar inverse = solve[field_of(SQUALL_INVERSE_RESPONSE, stride, i)];
   Scalar before = solve[field_of(SQUALL_PROJECTED, stride, i)];

@@ -8,9 +8,9 @@
 
 #include "solve_blocks.h"
 
-static inline Real receding_sum(__constant Params* p, __global const Scalar* records, const Places* places,
-                                __global const int* cell_start, const Block* block, const Lanes* a,
-                                __global const int* list) {
+static inline Real approaching_sum(__constant Params* p, __global const Scalar* records, const Places* places,
+                                   __global const int* cell_start, const Block* block, const Lanes* a,
+                                   __global const int* list) {
   Real sum = (Real)(0);
   Neighbours neighbours;
   begin_neighbours(p, cell_start, block, a, list, &neighbours);
@@ -19,20 +19,20 @@ static inline Real receding_sum(__constant Params* p, __global const Scalar* rec
     for (int k = 0; k < count; ++k) {
       __global const Scalar* b = records + 8 * (size_t)found[k];
       Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
-      Real receding = dot_product(x, y, z, a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
-      sum = fma(weight_of(p, squared_length(x, y, z)), receding, sum);
+      Real approaching = dot_product(x, y, z, (Real)(b[4]), (Real)(b[5]), (Real)(b[6]));
+      sum = fma(weight_of(p, squared_length(x, y, z)), approaching, sum);
     }
   }
   return sum;
 }
 
-/* The block's part of an iteration, `sum` being its receding_sum. Returns the sum of its errors. */
+/* The block's part of an iteration, `sum` being its approaching_sum. Returns the sum of its errors. */
 static inline long iterate_block(__constant Params* p, __global const Substep* now, const Block* block, const Lanes* a,
                                  Real sum, Scalar momentum, int stride, __global Scalar* records,
                                  __global Scalar* solve) {
-  Real along = dot_product(a->vx, a->vy, a->vz, load_field(solve, SQUALL_OPENING_X, stride, block),
-                           load_field(solve, SQUALL_OPENING_Y, stride, block),
-                           load_field(solve, SQUALL_OPENING_Z, stride, block));
+  Real along = dot_product(a->vx, a->vy, a->vz, load_field(solve, SQUALL_DESCENT_X, stride, block),
+                           load_field(solve, SQUALL_DESCENT_Y, stride, block),
+                           load_field(solve, SQUALL_DESCENT_Z, stride, block));
   Real dt = (Real)(now->dt), impulse = load_field(solve, SQUALL_IMPULSE, stride, block);
   Real inverse = load_field(solve, SQUALL_INVERSE_RESPONSE, stride, block);
   Real before = load_field(solve, SQUALL_PROJECTED, stride, block);
@@ -63,7 +63,7 @@ __kernel void rate_blocks(__global Scalar* records, __global const Scalar* x, __
       Lanes lanes;
       make_block(p, x, row, begin, row_end, &block);
       load_block(records, &places, &block, &lanes);
-      Real sum = receding_sum(p, records, &places, cell_start, &block, &lanes, list);
+      Real sum = approaching_sum(p, records, &places, cell_start, &block, &lanes, list);
       errors += iterate_block(p, substeps + step, &block, &lanes, sum, state->momentum, stride, records, solve);
       list += 1 + max(*list, 0);
     }

@@ -72,10 +72,7 @@ static inline long sum_of_terms(Real errors, const Block* block) {
 
 /* Without the scale; 0 from H on. */
 static inline Real weight_of(__constant Params* p, Real r2) {
-  Real r = sqrt(r2);
-  Real slope = cubic_slope(remaining_support(r, (Real)(p->inverse_support)),
-                           remaining_support(r, (Real)(p->inverse_half_support)));
-  return pair_weight(slope, r, (Real)(p->tiny));
+  return bell_weight(bell_left(r2, (Real)(p->inverse_support_squared)));
 }
 
 #endif

@@ -11,16 +11,14 @@
 /* A value that the solves keep of particle i. */
 static inline size_t field_of(int field, int stride, int i) { return (size_t)field * (size_t)stride + (size_t)i; }
 
-static inline Scalar4 opening_slope_of(__global const Scalar* solve, int stride, int i) {
-  return (Scalar4)(solve[field_of(SQUALL_OPENING_X, stride, i)], solve[field_of(SQUALL_OPENING_Y, stride, i)],
-                   solve[field_of(SQUALL_OPENING_Z, stride, i)], 0.0f);
+static inline Scalar4 descent_of(__global const Scalar* solve, int stride, int i) {
+  return (Scalar4)(solve[field_of(SQUALL_DESCENT_X, stride, i)], solve[field_of(SQUALL_DESCENT_Y, stride, i)],
+                   solve[field_of(SQUALL_DESCENT_Z, stride, i)], 0.0f);
 }
 
 /* Of a pair within reach, r^2 = r2. */
 static inline Scalar weight_of(__constant Params* p, Scalar r2) {
-  Scalar r = sqrt(r2);
-  Scalar slope = cubic_slope(remaining_support(r, p->inverse_support), remaining_support(r, p->inverse_half_support));
-  return pair_weight(slope, r, p->tiny);
+  return bell_weight(bell_left(r2, p->inverse_support_squared));
 }
 
 #endif

@@ -9,9 +9,9 @@
 #define SQUALL_SOLVED 2
 
 /* Fields of the solves' memory: one array after the other, a value per sorted particle. */
-#define SQUALL_OPENING_X 0 /* gradient of the open share, 1/m */
-#define SQUALL_OPENING_Y 1
-#define SQUALL_OPENING_Z 2
+#define SQUALL_DESCENT_X 0 /* minus the gradient of a particle's own density, 1/m */
+#define SQUALL_DESCENT_Y 1
+#define SQUALL_DESCENT_Z 2
 #define SQUALL_RESPONSE 3
 #define SQUALL_INVERSE_RESPONSE 4
 #define SQUALL_ROOM 5

@@ -52,6 +52,21 @@ SQUALL_FORMULA Real poly6_slope(Real t) { return t * t; }
 SQUALL_FORMULA Real spiky_value(Real u) { return u * u * u; }
 SQUALL_FORMULA Real spiky_slope(Real u) { return u * u; }
 
+/* Bell: W = 315/(8192 pi H^3) * bell_value, dW/dr = -945/(2048 pi H^5) * r * bell_weight, of t = 1 - q^2. The mean of
+   poly6, t^3, and t^6, each normalised: as good as the cubic spline at H = 2 dx (docs/dfsph.md), but there is neither a
+   root in it nor a division in its gradient. */
+SQUALL_FORMULA Real bell_left(Real r2, Real inverse_support_squared) {
+  return max0(nfma(r2, inverse_support_squared, (Real)(1)));
+}
+SQUALL_FORMULA Real bell_value(Real t) {
+  Real cube = t * t * t;
+  return cube * fma((Real)(143), cube, (Real)(64));
+}
+SQUALL_FORMULA Real bell_weight(Real t) {
+  Real square = t * t;
+  return square * fma((Real)(143), square * t, (Real)(32));
+}
+
 /* Viscosity kernel: Laplacian = 45/(pi H^5) * viscosity_laplacian, never negative. */
 SQUALL_FORMULA Real viscosity_laplacian(Real u) { return u; }
 
@@ -141,6 +156,23 @@ SQUALL_FORMULA Real spiky_wall_share(Real u, Real one_half) {
 SQUALL_FORMULA Real spiky_wall_marginal(Real u, Real one_half) {
   Real u2 = u * u;
   return (Real)(3) * u2 * u2 * fma(-(Real)(4), u, (Real)(5)) * one_half;
+}
+
+/* Bell; u = max0(1-q); two_hundred_fifty_sixth = 1/256 (exact). With t = 1 - q^2 the marginal is the mean of 315/256
+   t^4 and 6435/4096 t^7, and with every further power of t the share loses a multiple of q t^n. */
+SQUALL_FORMULA Real bell_wall_share(Real u, Real two_hundred_fifty_sixth) {
+  Real q = (Real)(1) - u;
+  Real t = u * ((Real)(2) - u);
+  Real t2 = t * t;
+  Real lost = q * t2 * t2 * t * fma(fma((Real)(429), t, (Real)(462)), t, (Real)(504));
+  Real scale = (Real)(8) * two_hundred_fifty_sixth * two_hundred_fifty_sixth; /* 1/8192 */
+  return nfma(scale, lost, poly6_wall_share(u, two_hundred_fifty_sixth));
+}
+SQUALL_FORMULA Real bell_wall_marginal(Real u, Real two_hundred_fifty_sixth) {
+  Real t = u * ((Real)(2) - u);
+  Real t2 = t * t;
+  Real scale = (Real)(8) * two_hundred_fifty_sixth * two_hundred_fifty_sixth; /* 1/8192 */
+  return scale * (t2 * t2) * fma((Real)(6435), t2 * t, (Real)(5040));
 }
 
 /* ---- time integration -------------------------------------------------------------------------------------------- */

@@ -6,7 +6,7 @@
 #ifndef SQUALL_WCSPH /* 1: wcsph, 0: mueller */
 #define SQUALL_WCSPH 1
 #endif
-#ifndef SQUALL_DFSPH /* 1: dfsph, with the kernels of wcsph */
+#ifndef SQUALL_DFSPH /* 1: dfsph, with the bell kernel */
 #define SQUALL_DFSPH 0
 #endif
 #ifndef SQUALL_SMOOTHING /* dfsph: the scene asks for xsph */

@@ -15,6 +15,7 @@ SQUALL_PARAMS_FORMULA Real wall_share(SQUALL_CONSTANT SQUALL_REF(Params) * p, in
   Real u = max0((Real)(1) - q);
   if (kernel_shape == SQUALL_POLY6) return poly6_wall_share(u, (Real)(p->two_hundred_fifty_sixth));
   if (kernel_shape == SQUALL_SPIKY) return spiky_wall_share(u, (Real)(p->one_half));
+  if (kernel_shape == SQUALL_BELL) return bell_wall_share(u, (Real)(p->two_hundred_fifty_sixth));
   return cubic_wall_share(u, max0((Real)(1) - (q + q)), (Real)(p->thirtieth));
 }
 
@@ -22,6 +23,7 @@ SQUALL_PARAMS_FORMULA Real wall_marginal(SQUALL_CONSTANT SQUALL_REF(Params) * p,
   Real u = max0((Real)(1) - q);
   if (kernel_shape == SQUALL_POLY6) return poly6_wall_marginal(u, (Real)(p->two_hundred_fifty_sixth));
   if (kernel_shape == SQUALL_SPIKY) return spiky_wall_marginal(u, (Real)(p->one_half));
+  if (kernel_shape == SQUALL_BELL) return bell_wall_marginal(u, (Real)(p->two_hundred_fifty_sixth));
   return cubic_wall_marginal(u, max0((Real)(1) - (q + q)), (Real)(p->fifth));
 }
 

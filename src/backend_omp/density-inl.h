@@ -3,6 +3,7 @@
 // Included once per instruction set and precision, after its Pack: neighbours, density, and what it says of pressure.
 
 #include "backend_omp/neighbours-inl.h"
+#include "core/smoothing_kernels.h"
 
 namespace squall::openmp {
 
@@ -60,7 +61,7 @@ void density_of_block(const PassContext<Scalar>& context, const Block& block, Ne
   list[-1] = count;
   neighbours.used += static_cast<std::size_t>(count) + 1;
 
-  constexpr int kernel_shape = pressure == Pressure::wcsph ? SQUALL_CUBIC : SQUALL_POLY6;
+  constexpr int kernel_shape = density_kernel(pressure);
   const Pack wall_share = Pack(1.0f) - opening(context, kernel_shape, true, first_lanes(block.count()), x, y, z).open;
   const Pack density = relative_density(sum, Pack(p.density_scale), wall_share);
   Pack kinematic_pressure, pressure_term, volume_term;

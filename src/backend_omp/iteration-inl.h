@@ -25,47 +25,52 @@ Lanes<Pack> own_lanes(const Record<Scalar>* records, const Block& block) {
 enum class Weights { near, far };  ///< in a near cache, or perhaps not
 
 /// Calls visit(neighbour, weight) for a list, two to a round: the loop itself is a tenth of a light pass. Weights from
-/// far away are asked for eight rounds before.
+/// far away are asked for eight rounds before; where neighbours are, is looked up a round before, so that what waits
+/// for them in the processor's vector unit waits less. Looks up two entries behind the list.
 template <class Pack, Weights weights_are, class Visit>
 SQUALL_INLINE void for_each_pair(const Record<Scalar>* records, const int* list, const Scalar* weights, int count,
                                  Visit visit) {
+  const Record<Scalar>*first = records + list[0], *second = records + list[1];
   int k = 0;
   for (; k + 1 < count; k += 2, weights += 2 * Pack::k_lanes) {
     if constexpr (weights_are == Weights::far) prefetch(weights, 16 * Pack::k_lanes);
-    visit(records[list[k]], Pack::load(weights));
-    visit(records[list[k + 1]], Pack::load(weights + Pack::k_lanes));
+    const Record<Scalar>*next_first = records + list[k + 2], *next_second = records + list[k + 3];
+    visit(*first, Pack::load(weights));
+    visit(*second, Pack::load(weights + Pack::k_lanes));
+    first = next_first;
+    second = next_second;
   }
-  if (k < count) visit(records[list[k]], Pack::load(weights));
+  if (k < count) visit(*first, Pack::load(weights));
 }
 
-/// Sum of weight (v_ij.x_ij) over a list. Like the other loops over lists a function of its own, which has all
+/// Sum of weight (v_j.x_ij) over a list. Like the other loops over lists a function of its own, which has all
 /// registers.
 template <class Pack>
-SQUALL_NOINLINE Pack receding_sum(const Record<Scalar>* records, const Lanes<Pack>& a, const int* list,
-                                  const Scalar* weights, int count) {
-  const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz();
+SQUALL_NOINLINE Pack approaching_sum(const Record<Scalar>* records, const Lanes<Pack>& a, const int* list,
+                                     const Scalar* weights, int count) {
+  const Pack x = a.x(), y = a.y(), z = a.z();
   Pack sum(0.0f);
   for_each_pair<Pack, Weights::far>(records, list, weights, count, [&](const Record<Scalar>& b, Pack weight) {
-    const Pack receding =
-        dot_product(x - Pack(b.x), y - Pack(b.y), z - Pack(b.z), vx - Pack(b.vx), vy - Pack(b.vy), vz - Pack(b.vz));
-    sum = fma(weight, receding, sum);
+    const Pack approaching =
+        dot_product(x - Pack(b.x), y - Pack(b.y), z - Pack(b.z), Pack(b.vx), Pack(b.vy), Pack(b.vz));
+    sum = fma(weight, approaching, sum);
   });
   return sum;
 }
 
-/// Sum of weight (change_i + change_j) x_ij over a list.
+/// Sum of weight change_j x_ij over a list.
 template <class Pack>
 SQUALL_NOINLINE Vector<Pack> pushed_sum(const Record<Scalar>* records, const Lanes<Pack>& a, const int* list,
                                         const Scalar* weights, int count) {
-  const Pack x = a.x(), y = a.y(), z = a.z(), change = a.pressure_term();
+  const Pack x = a.x(), y = a.y(), z = a.z();
   Vector<Pack> sum;
   for_each_pair<Pack, Weights::far>(records, list, weights, count, [&](const Record<Scalar>& b, Pack weight) {
-    sum.add_scaled((change + Pack(b.pressure_term)) * weight, x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
+    sum.add_scaled(Pack(b.pressure_term) * weight, x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
   });
   return sum;
 }
 
-/// A block's part of an iteration, `sum` being its receding_sum: by how much its impulses change, for all to read.
+/// A block's part of an iteration, `sum` being its approaching_sum: by how much its impulses change, for all to read.
 /// Returns the sum of its errors.
 template <class Pack>
 std::int64_t iterate_block(const PassContext<Scalar>& context, const Block& block, const Lanes<Pack>& a, Pack sum,
@@ -75,7 +80,7 @@ std::int64_t iterate_block(const PassContext<Scalar>& context, const Block& bloc
   const SolveArrays<Scalar>& arrays = context.solve;
   const auto load = [&](const Scalar* values) { return Pack::load(values + block.begin); };
   const Pack along =
-      dot_product(a.vx(), a.vy(), a.vz(), load(arrays.opening_x), load(arrays.opening_y), load(arrays.opening_z));
+      dot_product(a.vx(), a.vy(), a.vz(), load(arrays.descent_x), load(arrays.descent_y), load(arrays.descent_z));
   const Pack dt(substep.dt), impulse = load(arrays.impulse), inverse = load(arrays.inverse_response);
   const Pack lack = lack_of_compression(load(arrays.room), dt, compression_rate(sum, Pack(p.force_scale), along));
   const Pack projected = projected_impulse(impulse, lack, Pack(substep.relaxation_rate), inverse);
@@ -114,11 +119,11 @@ void push_block(const PassContext<Scalar>& context, const Block& block, const in
   const Pack change = lanes.pressure_term();
   const Vector<Pack> sum = pushed_sum<Pack>(context.sorted, lanes, list, weights, count);
   const Pack scale(context.params->force_scale);
-  const auto pushed = [&](Pack v, Pack push, const Scalar* opening) {
-    return v + fma(scale, push, change * Pack::load(opening + block.begin));
+  const auto pushed = [&](Pack v, Pack push, const Scalar* descent) {
+    return v + fma(scale, push, change * Pack::load(descent + block.begin));
   };
-  write_velocities(context, block, pushed(lanes.vx(), sum.x, arrays.opening_x),
-                   pushed(lanes.vy(), sum.y, arrays.opening_y), pushed(lanes.vz(), sum.z, arrays.opening_z),
+  write_velocities(context, block, pushed(lanes.vx(), sum.x, arrays.descent_x),
+                   pushed(lanes.vy(), sum.y, arrays.descent_y), pushed(lanes.vz(), sum.z, arrays.descent_z),
                    lanes.volume_term());
   store_lanes(arrays.impulse, block, max0(Pack::load(arrays.impulse + block.begin) + change));
 }

@@ -48,13 +48,11 @@ struct BlockPasses {
     const int* neighbours = list.data;
     for_each_block<Pack>(context, first_row, end_row, [&](const Block& block) {
       const int count = *neighbours++;
+      alignas(64) Scalar within[Pack::k_lanes];
+      count_neighbours<pressure>(context, own_lanes<Pack>(context.sorted, block), neighbours, count).store(within);
       for (int i = block.begin; i < block.end; ++i) {
-        const Record<Scalar>& a = context.sorted[i];
-        std::int64_t within = -1;  // self is on the list
-        for (int k = 0; k < count; ++k)
-          within += is_neighbour<pressure>(*context.params, a, context.sorted[neighbours[k]]);
-        context.neighbours[i] = static_cast<int>(within);
-        result.neighbours += within;
+        context.neighbours[i] = static_cast<int>(within[i - block.begin]) - 1;  // self is on the list
+        result.neighbours += context.neighbours[i];
         const Scalar error = max0(context.density[i] - 1.0f);
         result.density_error_sum += static_cast<double>(error);
         if (error > result.density_error_max) result.density_error_max = error;
@@ -64,12 +62,26 @@ struct BlockPasses {
   }
 
   template <Pressure pressure>
-  static int is_neighbour(const Params<Scalar>& p, const Record<Scalar>& a, const Record<Scalar>& b) {
-    const Scalar dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
-    if constexpr (pressure != Pressure::mueller)
-      return remaining_support(squall::sqrt(squared_length(dx, dy, dz)), p.inverse_support) > 0.0f ? 1 : 0;
+  static Pack count_neighbours(const PassContext<Scalar>& context, const Lanes<Pack>& a, const int* list, int count) {
+    const Pack x = a.x(), y = a.y(), z = a.z();
+    Pack within(0.0f);
+    for (int k = 0; k < count; ++k) {
+      const Record<Scalar>& b = context.sorted[list[k]];
+      const Pack left = support_left<pressure>(*context.params, x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
+      within = within + select(Pack(0.0f) < left, Pack(1.0f), Pack(0.0f));
+    }
+    return within;
+  }
+
+  /// Positive within H and 0 beyond, as the density kernel has it.
+  template <Pressure pressure>
+  static Pack support_left(const Params<Scalar>& p, Pack dx, Pack dy, Pack dz) {
+    if constexpr (pressure == Pressure::wcsph)
+      return remaining_support(sqrt(squared_length(dx, dy, dz)), Pack(p.inverse_support));
+    else if constexpr (pressure == Pressure::dfsph)
+      return bell_left(squared_length(dx, dy, dz), Pack(p.inverse_support_squared));
     else
-      return squared_support_left(dx, dy, dz, p.support_squared) > 0.0f ? 1 : 0;
+      return squared_support_left(dx, dy, dz, Pack(p.support_squared));
   }
 
   static void density(const PassContext<Scalar>& context, int first_row, int end_row, NeighbourList<Scalar>& list) {
@@ -90,10 +102,10 @@ struct BlockPasses {
 
   static void statistics(const PassContext<Scalar>& context, int first_row, int end_row,
                          const NeighbourList<Scalar>& list, PassResult<Scalar>& result) {
-    if (context.terms.pressure != Pressure::mueller)
-      statistics_rows<Pressure::wcsph>(context, first_row, end_row, list, result);
-    else
-      statistics_rows<Pressure::mueller>(context, first_row, end_row, list, result);
+    const auto rows = context.terms.pressure == Pressure::wcsph     ? statistics_rows<Pressure::wcsph>
+                      : context.terms.pressure == Pressure::mueller ? statistics_rows<Pressure::mueller>
+                                                                    : statistics_rows<Pressure::dfsph>;
+    rows(context, first_row, end_row, list, result);
   }
 
   static void prepare(const PassContext<Scalar>& context, int first_row, int end_row, NeighbourList<Scalar>& list,
@@ -122,8 +134,8 @@ struct BlockPasses {
     std::int64_t sum = 0;
     for_each_list(context, first_row, end_row, list, [&](const Block& block, const int* j, const Scalar* w, int count) {
       const Lanes<Pack> lanes = own_lanes<Pack>(context.sorted, block);
-      sum +=
-          iterate_block<Pack>(context, block, lanes, receding_sum<Pack>(context.sorted, lanes, j, w, count), momentum);
+      sum += iterate_block<Pack>(context, block, lanes, approaching_sum<Pack>(context.sorted, lanes, j, w, count),
+                                 momentum);
     });
     return sum;
   }

@@ -39,7 +39,7 @@ struct PassTerms {
 /// What dfsph keeps of each sorted particle during a sub-step (dfsph_formulas.h).
 template <class Scalar>
 struct SolveArrays {
-  Scalar *opening_x, *opening_y, *opening_z;  ///< gradient of the open share, 1/m
+  Scalar *descent_x, *descent_y, *descent_z;  ///< minus the gradient of a particle's own density, 1/m
   Scalar *response, *inverse_response;
   Scalar* room;
   Scalar *impulse, *projected;

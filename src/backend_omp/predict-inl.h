@@ -20,26 +20,22 @@ template <class Pack, bool viscous, bool smoothing>
 Prediction<Pack> predict_from_neighbours(const PassContext<Scalar>& context, const Lanes<Pack>& a, const int* list,
                                          const Scalar* weights, int count) {
   const Params<Scalar>& p = *context.params;
-  const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz(), impulse = a.volume_term();
-  const Pack viscous_scale(p.viscosity_scale * context.substep->kick), softening(p.softening);
+  const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz();
+  const Pack viscous_scale(p.viscosity_scale * context.substep->kick);
   Prediction<Pack> result;
-  for (int k = 0; k < count; ++k, weights += Pack::k_lanes) {
-    const Record<Scalar>& b = context.sorted[list[k]];
+  for_each_pair<Pack, Weights::far>(context.sorted, list, weights, count, [&](const Record<Scalar>& b, Pack weight) {
     const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
-    const Pack r2 = squared_length(dx, dy, dz);
-    Pack impulses = impulse + Pack(b.volume_term);
+    Pack impulse(b.volume_term);
     if constexpr (viscous) {
       const Pack receding = dot_product(dx, dy, dz, vx - Pack(b.vx), vy - Pack(b.vy), vz - Pack(b.vz));
-      impulses = viscous_pair_push(impulses, viscous_scale, receding, r2, softening);
+      impulse = viscous_pair_push(impulse, viscous_scale, receding);
     }
-    result.pushed.add_scaled(impulses * Pack::load(weights), dx, dy, dz);
+    result.pushed.add_scaled(impulse * weight, dx, dy, dz);
     if constexpr (smoothing) {
-      const Pack r = sqrt(r2);
-      const Pack value = cubic_value(remaining_support(r, Pack(p.inverse_support)),
-                                     remaining_support(r, Pack(p.inverse_half_support)));
+      const Pack value = bell_value(bell_left(squared_length(dx, dy, dz), Pack(p.inverse_support_squared)));
       result.smoothed.add_scaled(value, Pack(b.vx) - vx, Pack(b.vy) - vy, Pack(b.vz) - vz);
     }
-  }
+  });
   return result;
 }
 
@@ -54,7 +50,7 @@ void predict_block(const PassContext<Scalar>& context, const Block& block, const
   const Pack position[3] = {lanes.x(), lanes.y(), lanes.z()}, impulse = lanes.volume_term();
   const Pack pushed[3] = {sums.pushed.x, sums.pushed.y, sums.pushed.z};
   const Pack smoothed[3] = {sums.smoothed.x, sums.smoothed.y, sums.smoothed.z};
-  const Scalar* openings[3] = {arrays.opening_x, arrays.opening_y, arrays.opening_z};
+  const Scalar* descents[3] = {arrays.descent_x, arrays.descent_y, arrays.descent_z};
   Pack v[3] = {lanes.vx(), lanes.vy(), lanes.vz()};
   // As add_external_acceleration of the reference: gravity is added to 0, which changes nothing but the sign of zero.
   Pack a[3] = {Pack(0.0f) + Pack(substep.acceleration_x), Pack(0.0f) + Pack(substep.acceleration_y),
@@ -62,7 +58,7 @@ void predict_block(const PassContext<Scalar>& context, const Block& block, const
   if (context.terms.drag) add_drag(context, block, v, a);
   for (int axis = 0; axis < 3; ++axis) {
     v[axis] = fma(Pack(substep.kick), a[axis], v[axis]) +
-              fma(Pack(p.force_scale), pushed[axis], impulse * Pack::load(openings[axis] + block.begin));
+              fma(Pack(p.force_scale), pushed[axis], impulse * Pack::load(descents[axis] + block.begin));
     if constexpr (smoothing) v[axis] = fma(Pack(p.smoothing_scale * substep.dt), smoothed[axis], v[axis]);
   }
   write_records(block, position, Pack(0.0f), v, context.next);

@@ -15,7 +15,7 @@ namespace {
 template <class Pack>
 Opening<Pack> opening_with_cores(const PassContext<Scalar>& context, Mask valid, Pack x, Pack y, Pack z) {
   const Params<Scalar>& p = *context.params;
-  Opening<Pack> result = opening(context, SQUALL_CUBIC, true, valid, x, y, z);
+  Opening<Pack> result = opening(context, SQUALL_BELL, true, valid, x, y, z);
   if (is_near_container(context, valid, x, y, z))
     result.open =
         close_container_cores(&p, x, y, z, result.open, &result.gradient_x, &result.gradient_y, &result.gradient_z);
@@ -33,8 +33,8 @@ template <class Pack>
 struct PreparedSums {
   Pack kernel{0.0f};
   Pack squares{0.0f};  ///< of slopes
-  Vector<Pack> gradient;
-  Pack receding{0.0f};
+  Vector<Pack> apart;  ///< of weight x_ij
+  Pack approaching{0.0f};
 };
 
 /// Weights of a list's pairs, from which it takes what is near no lane of the block, and sums of what comes with them.
@@ -42,24 +42,24 @@ template <class Pack>
 SQUALL_NOINLINE int find_weights(const PassContext<Scalar>& context, const Pack* position, int* list, Scalar* weights,
                                  int count, PreparedSums<Pack>& sums) {
   const Params<Scalar>& p = *context.params;
-  const Pack inverse_support(p.inverse_support), inverse_half_support(p.inverse_half_support);
-  const Pack tiny(p.tiny), reach2(p.list_squared);
+  const Pack inverse_support_squared(p.inverse_support_squared), reach2(p.list_squared);
   const Record<Scalar>* records = context.sorted;
   const Pack x = position[0], y = position[1], z = position[2];
   Pack kernel[2] = {Pack(0.0f), Pack(0.0f)};  // by the parity of the sorted index
   Pack squares(0.0f);
   std::ptrdiff_t kept = 0;
+  list[count] = 0;  // looked up in vain
+  int next = list[0];
   for (int k = 0; k < count; ++k) {
-    const int j = list[k];
+    const int j = next;
+    next = list[k + 1];
     const Record<Scalar>& b = records[j];
     const Pack r2 = squared_length(x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
-    const Pack r = sqrt(r2);
-    const Pack u = remaining_support(r, inverse_support);
-    const Pack w = remaining_support(r, inverse_half_support);
-    const Pack slope = cubic_slope(u, w);
-    pair_weight(slope, r, tiny).store(weights + kept * Pack::k_lanes);
-    kernel[j & 1] = kernel[j & 1] + cubic_value(u, w);
-    squares = fma(slope, slope, squares);
+    const Pack left = bell_left(r2, inverse_support_squared);
+    const Pack weight = bell_weight(left);
+    weight.store(weights + kept * Pack::k_lanes);
+    kernel[j & 1] = kernel[j & 1] + bell_value(left);
+    squares = plus_squared_slope(squares, weight, r2);
     list[kept] = j;
     kept += any(r2 < reach2) ? 1 : 0;
   }
@@ -68,20 +68,20 @@ SQUALL_NOINLINE int find_weights(const PassContext<Scalar>& context, const Pack*
   return static_cast<int>(kept);
 }
 
-/// Sums over a list with its weights: of weight x_ij, and receding_sum.
+/// Sums over a list with its weights: of weight x_ij, and approaching_sum.
 template <class Pack>
 SQUALL_NOINLINE void sum_slopes(const Record<Scalar>* records, const Lanes<Pack>& a, const int* list,
                                 const Scalar* weights, int count, PreparedSums<Pack>& sums) {
-  const Pack x = a.x(), y = a.y(), z = a.z(), vx = a.vx(), vy = a.vy(), vz = a.vz();
-  Vector<Pack> gradient;
-  Pack receding(0.0f);
+  const Pack x = a.x(), y = a.y(), z = a.z();
+  Vector<Pack> apart;
+  Pack approaching(0.0f);
   for_each_pair<Pack, Weights::near>(records, list, weights, count, [&](const Record<Scalar>& b, Pack weight) {
     const Pack dx = x - Pack(b.x), dy = y - Pack(b.y), dz = z - Pack(b.z);
-    gradient.add_scaled(weight, dx, dy, dz);
-    receding = fma(weight, dot_product(dx, dy, dz, vx - Pack(b.vx), vy - Pack(b.vy), vz - Pack(b.vz)), receding);
+    apart.add_scaled(weight, dx, dy, dz);
+    approaching = fma(weight, dot_product(dx, dy, dz, Pack(b.vx), Pack(b.vy), Pack(b.vz)), approaching);
   });
-  sums.gradient = gradient;
-  sums.receding = receding;
+  sums.apart = apart;
+  sums.approaching = approaching;
 }
 
 /// Density, response to pressure, walls. Returns the density.
@@ -96,13 +96,14 @@ Pack note_prepared(const PassContext<Scalar>& context, const Block& block, const
   const Pack wall_share = Pack(1.0f) - walls.open;
   const Pack density = relative_density(sum, Pack(p.density_scale), wall_share);
   const Pack scale(p.force_scale);
-  const Pack response =
-      pressure_response(fma(scale, sums.gradient.x, walls.gradient_x), fma(scale, sums.gradient.y, walls.gradient_y),
-                        fma(scale, sums.gradient.z, walls.gradient_z), sums.squares, scale);
+  const Pack descent_x = fma(scale, sums.apart.x, walls.gradient_x);
+  const Pack descent_y = fma(scale, sums.apart.y, walls.gradient_y);
+  const Pack descent_z = fma(scale, sums.apart.z, walls.gradient_z);
+  const Pack response = pressure_response(descent_x, descent_y, descent_z, sums.squares, scale);
   store_lanes(context.density, block, density);
-  store_lanes(arrays.opening_x, block, walls.gradient_x);
-  store_lanes(arrays.opening_y, block, walls.gradient_y);
-  store_lanes(arrays.opening_z, block, walls.gradient_z);
+  store_lanes(arrays.descent_x, block, descent_x);
+  store_lanes(arrays.descent_y, block, descent_y);
+  store_lanes(arrays.descent_z, block, descent_z);
   store_lanes(arrays.response, block, response);
   store_lanes(arrays.inverse_response, block, inverse_response(response, Pack(p.response_guard)));
   if (context.terms.drag)
@@ -136,7 +137,7 @@ void prepare_block(const PassContext<Scalar>& context, const Block& block, Neigh
   Range ranges[9];
   int total = 0;
   const int range_count = candidate_ranges(context, block, ranges, total);
-  if (!neighbours.reserve(static_cast<std::size_t>(total + Pack::k_lanes) + 1)) return;
+  if (!neighbours.reserve(static_cast<std::size_t>(total + Pack::k_lanes) + 3)) return;
   int* list = neighbours.data + neighbours.used + 1;
   const Pack position[3] = {Pack::load(context.x + block.begin), Pack::load(context.y + block.begin),
                             Pack::load(context.z + block.begin)};
@@ -148,6 +149,7 @@ void prepare_block(const PassContext<Scalar>& context, const Block& block, Neigh
   PreparedSums<Pack> sums;
   count = find_weights(context, position, list, weights, count, sums);
   list[-1] = count;
+  list[count] = list[count + 1] = 0;  // for_each_pair looks up two more
   neighbours.used += static_cast<std::size_t>(count) + 1;
   neighbours.weights.used += static_cast<std::size_t>(count) * Pack::k_lanes;
   sum_slopes(context.sorted, lanes, list, weights, count, sums);
@@ -155,7 +157,7 @@ void prepare_block(const PassContext<Scalar>& context, const Block& block, Neigh
   const Pack density = note_prepared(context, block, position, sums);
   note_start(context, block, lanes, density);
   totals.excess += sum_of_terms(density - Pack(1.0f), first_lanes(block.count()));
-  totals.error += iterate_block(context, block, lanes, sums.receding, 0.0f);
+  totals.error += iterate_block(context, block, lanes, sums.approaching, 0.0f);
 }
 
 }  // namespace

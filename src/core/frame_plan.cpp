@@ -92,9 +92,9 @@ void set_pressure_solve(const Scene& scene, bool walls_vanish, Substep<double>& 
 
 double smoothing_viscosity(const Scene& scene, Pressure pressure) {
   if (pressure != Pressure::dfsph) return 0.0;
-  // eps <r^2>/(6 dt) per application with eps = xsph dt/dt_max; <r^2> = 0.225 H^2 for the cubic spline.
+  // eps <r^2>/(6 dt) per application with eps = xsph dt/dt_max; <r^2> = 42/187 H^2 for the bell kernel.
   const double support = scene.support_radius();
-  return 0.0375 * scene.solver.xsph * support * support / scene.solver.dt_max_s;
+  return 7.0 / 187.0 * scene.solver.xsph * support * support / scene.solver.dt_max_s;
 }
 
 double time_step_limit(const Scene& scene, Pressure pressure, double speed_bound) {

@@ -15,6 +15,7 @@ double kernel_value(int shape, double r) {
   const double u = max0(1.0 - r);
   if (shape == SQUALL_POLY6) return 315.0 / (64.0 * pi) * poly6_value(max0(1.0 - r * r));
   if (shape == SQUALL_SPIKY) return 15.0 / pi * spiky_value(u);
+  if (shape == SQUALL_BELL) return 315.0 / (8192.0 * pi) * bell_value(bell_left(r * r, 1.0));
   return 8.0 / pi * cubic_value(u, max0(1.0 - 2.0 * r));
 }
 

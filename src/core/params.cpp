@@ -7,6 +7,7 @@
 #include "core/frame_plan.h"
 #include "core/rain.h"
 #include "grid.h"
+#include "sph_formulas.h"
 
 namespace squall {
 
@@ -43,11 +44,24 @@ void set_support(const Scene& scene, Params<double>& p) {
   p.list_squared = support * support * (1.0 + 1e-5);
   p.inverse_support = 1.0 / support;
   p.inverse_half_support = 2.0 / support;
+  p.inverse_support_squared = 1.0 / (support * support);
   p.softening = 0.01 * 0.25 * support * support;
   p.tiny = 1e-20;
 }
 
-/// The cubic spline for density and force: wcsph and dfsph.
+/// The bell kernel for density and force: dfsph.
+void set_bell(const Scene& scene, Params<double>& p) {
+  constexpr double pi = std::numbers::pi;
+  const double support = scene.support_radius();
+  const double ratio = scene.fluid.support_ratio;
+  const double volume = scene.particle_volume() / lattice_sum(SQUALL_BELL, ratio);
+  p.density_scale = volume * 315.0 / (8192.0 * pi * std::pow(support, 3));
+  p.force_scale = volume * 945.0 / (2048.0 * pi * std::pow(support, 5));
+  p.density_wall_shift = p.force_wall_shift = scene.fluid.spacing_m * wall_shift(SQUALL_BELL, ratio);
+  p.self_value = bell_value(1.0);
+}
+
+/// The cubic spline for density and force: wcsph.
 void set_spline(const Scene& scene, Params<double>& p) {
   constexpr double pi = std::numbers::pi;
   const double support = scene.support_radius();
@@ -70,7 +84,7 @@ void set_wcsph(const Scene& scene, Params<double>& p) {
 /// Where the numbers come from: docs/dfsph.md.
 void set_dfsph(const Scene& scene, Params<double>& p) {
   const double dx = scene.fluid.spacing_m;
-  p.viscosity_scale = 10.0 * scene.fluid.viscosity_m2_s.value_or(0.0);
+  p.viscosity_scale = 187.0 / 7.0 * scene.fluid.viscosity_m2_s.value_or(0.0) * p.inverse_support_squared;
   p.response_guard = 1e-12 / (p.support_squared * p.support_squared);
   p.largest_warm_impulse = dx * dx;
   p.free_density = 0.9;
@@ -108,12 +122,19 @@ Params<double> make_params(const Scene& scene, Pressure pressure) {
   p.clamp_distance = 0.01 * scene.fluid.spacing_m;
   p.lost_distance = 10.0 * size.y();
   set_support(scene, p);
-  if (pressure == Pressure::mueller)
-    set_mueller(scene, p);
-  else
-    set_spline(scene, p);
-  if (pressure == Pressure::wcsph) set_wcsph(scene, p);
-  if (pressure == Pressure::dfsph) set_dfsph(scene, p);
+  switch (pressure) {
+    case Pressure::mueller:
+      set_mueller(scene, p);
+      break;
+    case Pressure::wcsph:
+      set_spline(scene, p);
+      set_wcsph(scene, p);
+      break;
+    case Pressure::dfsph:
+      set_bell(scene, p);
+      set_dfsph(scene, p);
+      break;
+  }
   if (!scene.rains.empty()) {
     const double speed = terminal_speed(scene.rains.front().drop_diameter_mm);
     p.drag_coefficient = k_standard_gravity / (speed * speed);
@@ -153,6 +174,7 @@ Params<float> to_single(const Params<double>& d) {
   SQUALL_MEMBER(list_squared);
   SQUALL_MEMBER(inverse_support);
   SQUALL_MEMBER(inverse_half_support);
+  SQUALL_MEMBER(inverse_support_squared);
   SQUALL_MEMBER(softening);
   SQUALL_MEMBER(tiny);
   SQUALL_MEMBER(density_scale);
@@ -176,9 +198,10 @@ Params<float> to_single(const Params<double>& d) {
   SQUALL_MEMBER(fifth);
   SQUALL_MEMBER(two_hundred_fifty_sixth);
   SQUALL_MEMBER(one_half);
-  static_assert(sizeof s == 40 * sizeof(float), "a member of Params is missing here");
-  // A particle alone sums to what single precision makes of it.
-  if (s.self_value != 1.0f) s.self_value = s.support_squared * s.support_squared * s.support_squared;
+  static_assert(sizeof s == 41 * sizeof(float), "a member of Params is missing here");
+  // A particle alone sums to what single precision makes of H^6 (mueller); the others' sums are integers.
+  if (d.self_value == d.support_squared * d.support_squared * d.support_squared)
+    s.self_value = s.support_squared * s.support_squared * s.support_squared;
   return s;
 }
 

@@ -13,7 +13,7 @@ namespace {
 /// Open share at a particle with the walls' cores, and its gradient.
 template <class Scalar>
 Scalar opening_with_cores(const Params<Scalar>& p, const Walls<Scalar>& walls, const Scalar* x, Scalar* gradient) {
-  Scalar open = opening(p, SQUALL_CUBIC, true, walls, x, gradient);
+  Scalar open = opening(p, SQUALL_BELL, true, walls, x, gradient);
   open = close_container_cores(&p, x[0], x[1], x[2], open, &gradient[0], &gradient[1], &gradient[2]);
   for (int b = 0; b < walls.box_count; ++b)
     open = close_box_core(&p, &walls.boxes[b], x[0], x[1], x[2], open, &gradient[0], &gradient[1], &gradient[2]);
@@ -23,19 +23,16 @@ Scalar opening_with_cores(const Params<Scalar>& p, const Walls<Scalar>& walls, c
 /// Particle i seen from particle j.
 template <class Scalar>
 struct Pair {
-  Scalar x, y, z, r2, r, u, w, slope;
+  Scalar x, y, z, r2, left, weight;
 
   Pair(const Params<Scalar>& p, const Particle<Scalar>& a, const Particle<Scalar>& b)
       : x(a.x[0] - b.x[0]),
         y(a.x[1] - b.x[1]),
         z(a.x[2] - b.x[2]),
         r2(squared_length(x, y, z)),
-        r(sqrt(r2)),
-        u(remaining_support(r, p.inverse_support)),
-        w(remaining_support(r, p.inverse_half_support)),
-        slope(cubic_slope(u, w)) {}
+        left(bell_left(r2, p.inverse_support_squared)),
+        weight(bell_weight(left)) {}
 
-  Scalar weight(const Params<Scalar>& p) const { return pair_weight(slope, r, p.tiny); }
   Scalar receding(const Particle<Scalar>& a, const Particle<Scalar>& b) const {
     return dot_product(x, y, z, a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2]);
   }
@@ -90,20 +87,20 @@ template <class Scalar>
 void prepare(const Params<Scalar>& p, const Walls<Scalar>& walls, SortedParticles<Scalar>& sorted, int i) {
   Particle<Scalar>& a = sorted.particles[static_cast<std::size_t>(i)];
   Scalar sums[2] = {};  // by the parity of the sorted index
-  Scalar gradient[3] = {}, squares = 0;
+  Scalar apart[3] = {}, squares = 0;
   a.neighbours = -1;  // self is a candidate of its own
   for_each_neighbour(p, sorted, i, [&](const Particle<Scalar>&, const Pair<Scalar>& pair, int j) {
-    sums[j & 1] += cubic_value(pair.u, pair.w);
-    a.neighbours += pair.u > 0;
-    pair.add_scaled(pair.weight(p), gradient);
-    squares = fma(pair.slope, pair.slope, squares);
+    sums[j & 1] += bell_value(pair.left);
+    a.neighbours += pair.left > 0;
+    pair.add_scaled(pair.weight, apart);
+    squares = plus_squared_slope(squares, pair.weight, pair.r2);
   });
   const Scalar sum = sums[0] + sums[1];
   a.wall_share = 1 - opening_with_cores(p, walls, a.x, a.opening_gradient);
   a.density = relative_density(sum, p.density_scale, a.wall_share);
   a.isolation = isolation(sum, p.self_value, p.density_scale, a.wall_share, p.steepness);
-  for (int axis = 0; axis < 3; ++axis) gradient[axis] = fma(p.force_scale, gradient[axis], a.opening_gradient[axis]);
-  a.response = pressure_response(gradient[0], gradient[1], gradient[2], squares, p.force_scale);
+  for (int axis = 0; axis < 3; ++axis) a.descent[axis] = fma(p.force_scale, apart[axis], a.opening_gradient[axis]);
+  a.response = pressure_response(a.descent[0], a.descent[1], a.descent[2], squares, p.force_scale);
   a.inverse_response = inverse_response(a.response, p.response_guard);
 }
 
@@ -112,10 +109,10 @@ Scalar compression_rate_of(const Params<Scalar>& p, const SortedParticles<Scalar
   const Particle<Scalar>& a = sorted.particles[static_cast<std::size_t>(i)];
   Scalar sum = 0;
   for_each_neighbour(p, sorted, i, [&](const Particle<Scalar>& b, const Pair<Scalar>& pair, int) {
-    sum = fma(pair.weight(p), pair.receding(a, b), sum);
+    sum = fma(pair.weight, dot_product(pair.x, pair.y, pair.z, b.v[0], b.v[1], b.v[2]), sum);
   });
-  const Scalar* e = a.opening_gradient;
-  return compression_rate(sum, p.force_scale, dot_product(a.v[0], a.v[1], a.v[2], e[0], e[1], e[2]));
+  const Scalar* h = a.descent;
+  return compression_rate(sum, p.force_scale, dot_product(a.v[0], a.v[1], a.v[2], h[0], h[1], h[2]));
 }
 
 template <class Scalar>
@@ -125,18 +122,18 @@ void predict(const Params<Scalar>& p, const Terms& terms, const Substep<Scalar>&
   const Scalar viscous = p.viscosity_scale * substep.kick;
   Scalar pushed[3] = {}, smoothed[3] = {};
   for_each_neighbour(p, sorted, i, [&](const Particle<Scalar>& b, const Pair<Scalar>& pair, int) {
-    Scalar impulses = a.impulse + b.impulse;
-    if (terms.viscosity) impulses = viscous_pair_push(impulses, viscous, pair.receding(a, b), pair.r2, p.softening);
-    pair.add_scaled(impulses * pair.weight(p), pushed);
+    Scalar impulse = b.impulse;
+    if (terms.viscosity) impulse = viscous_pair_push(impulse, viscous, pair.receding(a, b));
+    pair.add_scaled(impulse * pair.weight, pushed);
     if (!terms.smoothing) return;
-    const Scalar value = cubic_value(pair.u, pair.w);
+    const Scalar value = bell_value(pair.left);
     for (int axis = 0; axis < 3; ++axis) smoothed[axis] = fma(value, b.v[axis] - a.v[axis], smoothed[axis]);
   });
   for (Scalar& component : a.acceleration) component = 0;
   add_external_acceleration(p, terms, substep, a);
   for (int axis = 0; axis < 3; ++axis) {
     a.next_v[axis] = fma(substep.kick, a.acceleration[axis], a.v[axis]) +
-                     fma(p.force_scale, pushed[axis], a.impulse * a.opening_gradient[axis]);
+                     fma(p.force_scale, pushed[axis], a.impulse * a.descent[axis]);
     if (terms.smoothing) a.next_v[axis] = fma(p.smoothing_scale * substep.dt, smoothed[axis], a.next_v[axis]);
   }
 }
@@ -146,9 +143,9 @@ void push(const Params<Scalar>& p, SortedParticles<Scalar>& sorted, int i) {
   Particle<Scalar>& a = sorted.particles[static_cast<std::size_t>(i)];
   Scalar sum[3] = {};
   for_each_neighbour(p, sorted, i, [&](const Particle<Scalar>& b, const Pair<Scalar>& pair, int) {
-    pair.add_scaled((a.change + b.change) * pair.weight(p), sum);
+    pair.add_scaled(b.change * pair.weight, sum);
   });
-  for (int axis = 0; axis < 3; ++axis) a.v[axis] += fma(p.force_scale, sum[axis], a.change * a.opening_gradient[axis]);
+  for (int axis = 0; axis < 3; ++axis) a.v[axis] += fma(p.force_scale, sum[axis], a.change * a.descent[axis]);
   a.impulse = max0(a.impulse + a.change);
 }
 

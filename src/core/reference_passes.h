@@ -32,6 +32,7 @@ struct Particle {
 
   // dfsph only (dfsph_formulas.h); `pressure` then outlives the sub-step
   Scalar opening_gradient[3] = {};  ///< of the open share, 1/m
+  Scalar descent[3] = {};           ///< dfsph: minus the gradient of the own density, 1/m
   Scalar response = 0;              ///< to its own pressure, 1/m^2
   Scalar inverse_response = 0;
   Scalar room = 0;       ///< what a sub-step may compress, relative density

@@ -3,6 +3,7 @@
 
 #include "core/fill.h"
 #include "core/frame_plan.h"
+#include "core/smoothing_kernels.h"
 #include "core/timed_groups.h"
 
 namespace squall {
@@ -34,10 +35,9 @@ std::vector<std::size_t> boxes_by_end(const Scene& scene) {
 }
 
 std::vector<Box<double>> make_boxes(const Scene& scene, Pressure pressure) {
-  const bool mueller = pressure == Pressure::mueller;
   const double dx = scene.fluid.spacing_m;
-  const double density_shift = dx * wall_shift(mueller ? SQUALL_POLY6 : SQUALL_CUBIC, scene.fluid.support_ratio);
-  const double force_shift = dx * wall_shift(mueller ? SQUALL_SPIKY : SQUALL_CUBIC, scene.fluid.support_ratio);
+  const double density_shift = dx * wall_shift(density_kernel(pressure), scene.fluid.support_ratio);
+  const double force_shift = dx * wall_shift(force_kernel(pressure), scene.fluid.support_ratio);
   std::vector<Box<double>> boxes;
   for (const std::size_t index : boxes_by_end(scene)) {
     Box<double> box{};

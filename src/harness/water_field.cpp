@@ -4,6 +4,7 @@
 
 #include "core/reference_dfsph.h"
 #include "core/reference_passes.h"
+#include "core/smoothing_kernels.h"
 #include "harness/present.h"
 
 namespace squall::harness {
@@ -45,8 +46,7 @@ Eigen::Vector3d wall_acceleration(const Params<double>& params, Pressure pressur
                                   const reference::Walls<double>& walls, const reference::Particle<double>& particle) {
   if (pressure == Pressure::dfsph) return particle.pressure * vector_of(particle.opening_gradient);
   double gradient[3];
-  reference::opening(params, pressure == Pressure::mueller ? SQUALL_SPIKY : SQUALL_CUBIC, false, walls, particle.x,
-                     gradient);
+  reference::opening(params, force_kernel(pressure), false, walls, particle.x, gradient);
   const double push = pressure == Pressure::mueller ? particle.pressure / particle.density : particle.pressure_term;
   return push * vector_of(gradient);
 }

@@ -213,10 +213,15 @@ TEST(FramePlan, FacesOfBoxesLieShiftedIntoThem) {
   Scene scene = empty_tank();
   scene.container.min_m = {-1, 0, 0};
   scene.boxes = {{{0.1, 0, 0.1}, {0.3, 0.2, 0.3}, std::nullopt}};
-  for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller}) {
-    const auto box = make_boxes(scene, pressure).at(0);
-    const double density = 0.05 * wall_shift(pressure == Pressure::wcsph ? SQUALL_CUBIC : SQUALL_POLY6, 2);
-    const double force = 0.05 * wall_shift(pressure == Pressure::wcsph ? SQUALL_CUBIC : SQUALL_SPIKY, 2);
+  struct Shapes {
+    Pressure pressure;
+    int density, force;
+  };
+  for (const Shapes& shapes :
+       {Shapes{Pressure::wcsph, SQUALL_CUBIC, SQUALL_CUBIC}, Shapes{Pressure::mueller, SQUALL_POLY6, SQUALL_SPIKY},
+        Shapes{Pressure::dfsph, SQUALL_BELL, SQUALL_BELL}}) {
+    const auto box = make_boxes(scene, shapes.pressure).at(0);
+    const double density = 0.05 * wall_shift(shapes.density, 2), force = 0.05 * wall_shift(shapes.force, 2);
     const double tolerance = rounding<double>(4, 2);
     EXPECT_NEAR(box.solid_min[0], 1.1, tolerance) << "relative to the container";
     EXPECT_NEAR(box.density_min[0], 1.1 + density, tolerance);

@@ -65,7 +65,7 @@ TEST(Params, AGridTooLargeIsRefusedWithItsSize) {
 // rho = rho0 exactly on a lattice: m = rho0 dx^3 and every density sum is divided by its lattice sum.
 TEST(Params, ALatticeHasRestDensity) {
   for (const double ratio : {1.6, 2.0, 2.5})
-    for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller}) {
+    for (const Pressure pressure : {Pressure::wcsph, Pressure::mueller, Pressure::dfsph}) {
       Scene scene = empty_tank();
       scene.fluid.support_ratio = ratio;
       const Params<double> params = make_params(scene, pressure);
@@ -74,10 +74,13 @@ TEST(Params, ALatticeHasRestDensity) {
         for (int j = -3; j <= 3; ++j)
           for (int k = -3; k <= 3; ++k) {
             const double x = 0.05 * i, y = 0.05 * j, z = 0.05 * k;
-            const double r = std::sqrt(squared_length(x, y, z));
-            sum += pressure == Pressure::wcsph ? cubic_value(remaining_support(r, params.inverse_support),
-                                                             remaining_support(r, params.inverse_half_support))
-                                               : poly6_value(squared_support_left(x, y, z, params.support_squared));
+            const double r2 = squared_length(x, y, z), r = std::sqrt(r2);
+            if (pressure == Pressure::dfsph) sum += bell_value(bell_left(r2, params.inverse_support_squared));
+            if (pressure == Pressure::mueller)
+              sum += poly6_value(squared_support_left(x, y, z, params.support_squared));
+            if (pressure == Pressure::wcsph)
+              sum += cubic_value(remaining_support(r, params.inverse_support),
+                                 remaining_support(r, params.inverse_half_support));
           }
       EXPECT_NEAR(relative_density(sum, params.density_scale, 0.0), 1, rounding<double>(343 + 16, 1)) << ratio;
     }
@@ -108,6 +111,8 @@ TEST(Params, SelfValueIsWhatAParticleAloneSumsTo) {
     scene.fluid.spacing_m = spacing;
     const Params<float> wcsph = to_single(make_params(scene, Pressure::wcsph));
     EXPECT_EQ(wcsph.self_value, cubic_value(1.0f, 1.0f));
+    const Params<float> dfsph = to_single(make_params(scene, Pressure::dfsph));
+    EXPECT_EQ(dfsph.self_value, bell_value(bell_left(0.0f, dfsph.inverse_support_squared)));
     const Params<float> mueller = to_single(make_params(scene, Pressure::mueller));
     EXPECT_EQ(mueller.self_value, poly6_value(squared_support_left(0.0f, 0.0f, 0.0f, mueller.support_squared)));
   }

@@ -130,7 +130,8 @@ TEST_F(Operators, ResponseIsTheDiagonal) {
 // All impulses within the fluid cancel: what all particles gain together is what walls give, and far from walls
 // nothing.
 TEST_F(Operators, PushKeepsMomentumButForWalls) {
-  for (auto& particle : sorted_.particles) std::fill(particle.opening_gradient, particle.opening_gradient + 3, 0.0);
+  for (auto& particle : sorted_.particles)
+    for (int axis = 0; axis < 3; ++axis) particle.descent[axis] -= particle.opening_gradient[axis];
   double gained[3] = {}, scale = 0;
   const SortedParticles<double> before = sorted_;
   for (int i = 0; i < count(); ++i) push(p_, sorted_, i);

@@ -16,19 +16,20 @@ class Walls : public testing::Test {};
 using Reals = testing::Types<float, double>;
 TYPED_TEST_SUITE(Walls, Reals);
 
-constexpr std::array<int, 3> k_shapes = {SQUALL_CUBIC, SQUALL_POLY6, SQUALL_SPIKY};
+constexpr std::array<int, 4> k_shapes = {SQUALL_CUBIC, SQUALL_POLY6, SQUALL_SPIKY, SQUALL_BELL};
 
 // A share is a polynomial of degree 11 at most in u <= 1; its Horner chain passes intermediates below 1700 u^5/256, the
-// cubic's below 48 u^5/30: 12 roundings of at most this size.
+// cubic's below 48 u^5/30: 12 roundings of at most this size. What bell takes off poly6's is below 0.05.
 constexpr double k_share_roundings = 12, k_share_scale = 7;
 
 TYPED_TEST(Walls, SharesMatchTheTable) {
   using Real = TypeParam;
   const auto params = unit_params<Real>();
-  const std::array<std::array<double, 11>, 3> table = {{
+  const std::array<std::array<double, 11>, 4> table = {{
       {.5, .362622, .240002, .142669, .074622, .033333, .012015, .003110, .000444, .000015, 0},
       {.5, .378579, .266568, .171719, .098809, .048927, .019581, .005629, .000891, .000033, 0},
       {.5, .354294, .229376, .134456, .069984, .031250, .011264, .002916, .000416, .000014, 0},
+      {.5, .362538, .239835, .142475, .074411, .033114, .011911, .003119, .000462, .000017, 0},
   }};
   for (const int shape : k_shapes)
     for (int i = 0; i <= 10; ++i)
@@ -63,6 +64,7 @@ TEST(WallClosedForms, AgreeWithTheIntegralsInPowersOfQ) {
     const double poly6 =
         .5 - 315. / 256 *
                  (q - 4 * std::pow(q, 3) / 3 + 6 * std::pow(q, 5) / 5 - 4 * std::pow(q, 7) / 7 + std::pow(q, 9) / 9);
+    const double bell_slope = .5 * (315. / 256 * std::pow(1 - q2, 4) + 6435. / 4096 * std::pow(1 - q2, 7));
     const double tolerance = rounding<double>(k_share_roundings, k_share_scale);
     EXPECT_NEAR(wall_share(&params, SQUALL_CUBIC, q), cubic, tolerance);
     EXPECT_NEAR(wall_share(&params, SQUALL_POLY6, q), poly6, tolerance);
@@ -70,6 +72,7 @@ TEST(WallClosedForms, AgreeWithTheIntegralsInPowersOfQ) {
     EXPECT_NEAR(wall_marginal(&params, SQUALL_CUBIC, q), cubic_slope, 4 * tolerance);
     EXPECT_NEAR(wall_marginal(&params, SQUALL_POLY6, q), 315. / 256 * std::pow(1 - q2, 4), 4 * tolerance);
     EXPECT_NEAR(wall_marginal(&params, SQUALL_SPIKY, q), 1.5 * std::pow(u, 4) * (1 + 4 * q), 4 * tolerance);
+    EXPECT_NEAR(wall_marginal(&params, SQUALL_BELL, q), bell_slope, 4 * tolerance);
   }
 }
 
