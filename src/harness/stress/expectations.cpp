@@ -37,6 +37,7 @@ constexpr std::array k_known{
     KnownStressFailure{6, wcsph, "", k_bounces},
     KnownStressFailure{6, mueller, "", k_bounces},
     KnownStressFailure{6, dfsph, "layer: mean speed", k_undamped},
+    KnownStressFailure{6, dfsph, "layer: spread", k_undamped},
     KnownStressFailure{6, dfsph, "row: mean speed", k_undamped},
     KnownStressFailure{6, dfsph, "column: mean speed", k_undamped},
     KnownStressFailure{7, wcsph, "",
