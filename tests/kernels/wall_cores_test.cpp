@@ -41,8 +41,7 @@ Share share_at(const double* x) {
   Share s;
   double* g = s.gradient;
   s.open = container_opening(&params, SQUALL_BELL, 0.004, x[0], x[1], x[2], g, g + 1, g + 2);
-  s.open =
-      close_box(&params, SQUALL_BELL, box.density_min, box.density_max, x[0], x[1], x[2], s.open, g, g + 1, g + 2);
+  s.open = close_box(&params, SQUALL_BELL, box.density_min, box.density_max, x[0], x[1], x[2], s.open, g, g + 1, g + 2);
   s.open = close_container_cores(&params, x[0], x[1], x[2], s.open, g, g + 1, g + 2);
   s.open = close_box_core(&params, &box, x[0], x[1], x[2], s.open, g, g + 1, g + 2);
   return s;
