@@ -38,13 +38,13 @@ class Column:
                     if j < 0 or i in (-1, 4 * n) or k in (-1, n):
                         yield i, j, k
 
-    def toml(self):
-        """The scene for squall. Frames are as short as it allows: they are the samples of which the median is taken."""
+    def toml(self, frame_rate_hz=None):
+        """The scene for squall. Without a frame rate, frames are as short as it allows: they are the samples of which the median is taken."""
         edge, n = EDGE_M, self.layers
         return f"""schema = 1
 [time]
 duration_s = 6.0
-frame_rate_hz = {600 if n < 30 else 1000}
+frame_rate_hz = {frame_rate_hz or (600 if n < 30 else 1000)}
 [fluid]
 spacing_m = {self.spacing!r}
 viscosity_m2_s = {VISCOSITY_M2_S}

@@ -35,9 +35,10 @@ class Squall:
         with tempfile.TemporaryDirectory() as folder:
             scene = f"{folder}/column.toml"
             with open(scene, "w", encoding="utf-8") as file:
-                file.write(column.toml())
+                file.write(column.toml(samples.frame_rate_hz))
             result = json.loads(run([self.path, scene, self.backend, self.pressure, str(threads), str(samples.warm_up_frames),
                                      str(samples.frames)], threads))
+        result["wall_ms"] = sum(result["frame_ms"])
         result["step_ms"] = [frame / steps for frame, steps in zip(result.pop("frame_ms"), result["substeps"])]
         result["steps"] = int(sum(result.pop("substeps")))
         return result
@@ -53,6 +54,7 @@ class Splishsplash:
         dt_max = 0.005 if self.solver == "dfsph" else 0.25 * dualsphysics_case.support(column) / column.speed_of_sound
         result = json.loads(run([self.path, self.solver, str(column.layers), str(samples.warm_up_steps), str(samples.steps),
                                  str(samples.until_s), repr(dt_max), repr(column.tait_b), repr(VISCOSITY_M2_S), "0.1"], threads))
+        result["wall_ms"] = sum(result["step_ms"])
         result["steps"] = len(result["step_ms"])
         return result
 
