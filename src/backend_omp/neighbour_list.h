@@ -38,7 +38,7 @@ struct NeighbourList {
   std::size_t used = 0;
   std::size_t capacity = 0;
   bool out_of_memory = false;
-  PairValues<Scalar> weights;  ///< dfsph: pair_weight of each neighbour and lane
+  PairValues<Scalar> weights;  ///< dfsph: bell_weight of each neighbour and lane
 
   NeighbourList() = default;
   NeighbourList(NeighbourList&& other) noexcept;
