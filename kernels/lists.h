@@ -21,20 +21,26 @@ inline constexpr int list_entries(int lanes) { return lanes == 4 ? 32 : 16; }
 #define SQUALL_NO_LIST (-1)
 
 typedef struct {
-  __global int* next; /* a list is its length, then sorted indices */
-  int room;           /* entries left */
+  __global int *memory, *next; /* a list is its length, then sorted indices */
+  int room;                    /* entries left */
   int share_end;
 } NeighbourLists;
 
 static inline void open_lists(__global int* memory, const Share* share, NeighbourLists* lists) {
+  lists->memory = memory;
   lists->next = memory + SQUALL_LIST_ENTRIES * (size_t)share->begin;
   lists->room = SQUALL_LIST_ENTRIES * (share->end - share->begin);
   lists->share_end = share->end;
 }
 
-/* Keeps room for the lengths of the blocks to come, of which there are no more than particles. */
+/* The longest list that the block may have. Keeps room for the lengths of the blocks to come, of which there are no
+   more than particles. */
+static inline int longest_list(const NeighbourLists* lists, const Block* block) {
+  return lists->room - 1 - (lists->share_end - block->end);
+}
+
 static inline void add_list(NeighbourLists* lists, const Block* block, const int* list, int length) {
-  if (length > lists->room - 1 - (lists->share_end - block->end)) length = SQUALL_NO_LIST;
+  if (length > longest_list(lists, block)) length = SQUALL_NO_LIST;
   *lists->next++ = length;
   --lists->room;
   if (length == SQUALL_NO_LIST) return;

@@ -1,6 +1,6 @@
-/* dfsph, between its solves: reads and writes what predict.cl does; reads also the lists of neighbours. One work-item =
-   one share of the rows, in blocks of SQUALL_LANES particles; the last one also copies held and lost particles. For CPU
-   devices. */
+/* dfsph, between its solves: reads and writes what predict.cl does; reads also the lists of neighbours and their
+   weights. One work-item = one share of the rows, in blocks of SQUALL_LANES particles; the last one also copies held
+   and lost particles. For CPU devices. */
 #include "shared.h"
 #include "switches.h"
 
@@ -14,32 +14,40 @@ typedef struct {
 } Prediction;
 
 static inline void predict_pair(__constant Params* p, Real viscous, const Lanes* a, __global const Scalar* b,
-                                Prediction* sums) {
+                                Real weight, Prediction* sums) {
   Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
-  Real r2 = squared_length(x, y, z);
   Real impulse = (Real)(b[7]);
 #if SQUALL_VISCOSITY
   Real receding = dot_product(x, y, z, a->vx - (Real)(b[4]), a->vy - (Real)(b[5]), a->vz - (Real)(b[6]));
   impulse = viscous_pair_push(impulse, viscous, receding);
 #endif
-  add_scaled(&sums->pushed, impulse * weight_of(p, r2), x, y, z);
+  add_scaled(&sums->pushed, impulse * weight, x, y, z);
 #if SQUALL_SMOOTHING
-  Real value = bell_value(bell_left(r2, (Real)(p->inverse_support_squared)));
+  Real value = bell_value(bell_left(squared_length(x, y, z), (Real)(p->inverse_support_squared)));
   add_scaled(&sums->smoothed, value, (Real)(b[4]) - a->vx, (Real)(b[5]) - a->vy, (Real)(b[6]) - a->vz);
 #endif
 }
 
 static inline void predict_from_neighbours(__constant Params* p, Scalar kick, __global const Scalar* sorted,
                                            const Places* places, __global const int* cell_start, const Block* block,
-                                           const Lanes* a, __global const int* list, Prediction* sums) {
+                                           const Lanes* a, __global const int* list, __global const Real* weights,
+                                           Prediction* sums) {
   sums->pushed.x = sums->pushed.y = sums->pushed.z = (Real)(0);
   sums->smoothed = sums->pushed;
   Real viscous = (Real)(p->viscosity_scale * kick);
+  if (has_weights(list)) {
+    for (int k = 0; k < list[0]; ++k) predict_pair(p, viscous, a, sorted + 8 * (size_t)list[1 + k], weights[k], sums);
+    return;
+  }
   Neighbours neighbours;
   begin_neighbours(p, cell_start, block, a, list, &neighbours);
   int found[SQUALL_BATCH + 1], count;
-  while ((count = next_neighbours(p, places, &neighbours, found)) > 0)
-    for (int k = 0; k < count; ++k) predict_pair(p, viscous, a, sorted + 8 * (size_t)found[k], sums);
+  while ((count = next_neighbours(p, places, &neighbours, found)) > 0) {
+    for (int k = 0; k < count; ++k) {
+      __global const Scalar* b = sorted + 8 * (size_t)found[k];
+      predict_pair(p, viscous, a, b, weight_between(p, a, b), sums);
+    }
+  }
 }
 
 /* One component of the velocity to start the density solve from. */
@@ -80,8 +88,8 @@ static inline void predict_block(__constant Params* p, __global const Substep* n
 __kernel void predict_blocks(__global const Scalar* sorted, __global Scalar* records, __global const Scalar* densities,
                              __global const Scalar* isolations, __global const Scalar* x, __global const Scalar* y,
                              __global const Scalar* z, __global const int* cell_start, __global const int* lists,
-                             __global Scalar* solve, __global const SolveState* state, __constant Params* p,
-                             __global const Substep* substeps, int stride, int step, int count) {
+                             __global const Real* weights, __global Scalar* solve, __global const SolveState* state,
+                             __constant Params* p, __global const Substep* substeps, int stride, int step, int count) {
   if (state->solve != SQUALL_DENSITY_SOLVE) return;
   __global const Substep* now = substeps + step;
   Places places = {x, y, z};
@@ -96,7 +104,8 @@ __kernel void predict_blocks(__global const Scalar* sorted, __global Scalar* rec
       Prediction sums;
       make_block(p, x, row, begin, row_end, &block);
       load_block(sorted, &places, &block, &lanes);
-      predict_from_neighbours(p, now->kick, sorted, &places, cell_start, &block, &lanes, list, &sums);
+      predict_from_neighbours(p, now->kick, sorted, &places, cell_start, &block, &lanes, list, weights + (list - lists),
+                              &sums);
       predict_block(p, now, &block, &lanes, &sums, state->correction, densities, isolations, stride, solve, records);
       list += 1 + max(*list, 0);
     }

@@ -1,6 +1,6 @@
 /* dfsph. Reads and writes what prepare.cl does, over-density as this work-item's share of the sum; writes also the
-   blocks' lists of neighbours. One work-item = one share of the rows, in blocks of SQUALL_LANES particles. For CPU
-   devices. */
+   blocks' lists of neighbours and their weights. One work-item = one share of the rows, in blocks of SQUALL_LANES
+   particles. For CPU devices. */
 #include "shared.h"
 #include "switches.h"
 
@@ -16,9 +16,10 @@ typedef struct {
   Mask neighbours; /* minus their number, self included */
 } PreparedSums;
 
-/* Adds the candidates; keeps in the list those that any lane has within reach. */
-static inline int sum_batch(__constant Params* p, const Places* places, Real x, Real y, Real z, int count, int* list,
-                            PreparedSums* sums) {
+/* Adds the candidates; keeps in the list those that any lane has within reach, and their weights, of which there is
+   room for one more than `longest`. */
+static inline int sum_batch(__constant Params* p, const Places* places, Real x, Real y, Real z, int count, int longest,
+                            int* list, __global Real* weights, PreparedSums* sums) {
   int kept = 0;
   for (int k = 0; k < count; ++k) {
     int j = list[k];
@@ -27,6 +28,9 @@ static inline int sum_batch(__constant Params* p, const Places* places, Real x, 
     Real left = bell_left(r2, (Real)(p->inverse_support_squared));
     Real value = bell_value(left), weight = bell_weight(left);
     list[kept] = j;
+#if SQUALL_WEIGHTS
+    weights[min(kept, longest)] = weight;
+#endif
     kept += any_lane(r2 < (Real)(p->list_squared));
     add_by_parity(value, j, &sums->even, &sums->odd);
     sums->neighbours += left > (Real)(0);
@@ -38,17 +42,19 @@ static inline int sum_batch(__constant Params* p, const Places* places, Real x, 
 
 static inline void sum_candidates(__constant Params* p, const Places* places, __global const int* cell_start,
                                   const Block* block, Real x, Real y, Real z, NeighbourLists* lists,
-                                  PreparedSums* sums) {
+                                  __global Real* weight_memory, PreparedSums* sums) {
   sums->even = sums->odd = sums->squares = (Real)(0);
   sums->apart.x = sums->apart.y = sums->apart.z = (Real)(0);
   sums->neighbours = (Mask)(0);
   Search search;
   begin_search(p, cell_start, block, x, y, z, &search);
   int found[SQUALL_BATCH + 1];
+  int longest = longest_list(lists, block);
+  __global Real* weights = weight_memory + (lists->next - lists->memory);
   int batches = 0, kept;
   do {
     int count = search_batch(p, places, &search, found);
-    kept = sum_batch(p, places, x, y, z, count, found, sums);
+    kept = sum_batch(p, places, x, y, z, count, longest, found, weights, sums);
     ++batches;
   } while (!search_ended(&search));
   add_list(lists, block, found, batches == 1 ? kept : SQUALL_NO_LIST);
@@ -83,10 +89,11 @@ static inline void begin_block(__constant Params* p, __global const Substep* now
 static inline long prepare_block(__global Scalar* records, __global Scalar* densities, __global Scalar* isolations,
                                  __global int* neighbours, const Places* places, __global const int* cell_start,
                                  __global Scalar* solve, __constant Params* p, __constant Box* boxes,
-                                 __global const Substep* now, int stride, const Block* block, NeighbourLists* lists) {
+                                 __global const Substep* now, int stride, const Block* block, NeighbourLists* lists,
+                                 __global Real* weights) {
   Real x = load_own(places->x, block), y = load_own(places->y, block), z = load_own(places->z, block);
   PreparedSums sums;
-  sum_candidates(p, places, cell_start, block, x, y, z, lists, &sums);
+  sum_candidates(p, places, cell_start, block, x, y, z, lists, weights, &sums);
   Real kernel_sum = sums.even + sums.odd;
   Vector e;
   Real share = (Real)(1) - opening_of(p, boxes, now->box_count, x, y, z, &e);
@@ -116,8 +123,9 @@ static inline long prepare_block(__global Scalar* records, __global Scalar* dens
 __kernel void prepare_blocks(__global Scalar* records, __global Scalar* densities, __global Scalar* isolations,
                              __global int* neighbours, __global const Scalar* x, __global const Scalar* y,
                              __global const Scalar* z, __global const int* cell_start, __global int* list_memory,
-                             __global Scalar* solve, __global long* shares, __constant Params* p, __constant Box* boxes,
-                             __global const Substep* substeps, int stride, int step) {
+                             __global Real* weights, __global Scalar* solve, __global long* shares,
+                             __constant Params* p, __constant Box* boxes, __global const Substep* substeps, int stride,
+                             int step) {
   Places places = {x, y, z};
   Share share;
   take_share(p, cell_start, &share);
@@ -130,7 +138,7 @@ __kernel void prepare_blocks(__global Scalar* records, __global Scalar* densitie
       Block block;
       make_block(p, x, row, begin, row_end, &block);
       excess += prepare_block(records, densities, isolations, neighbours, &places, cell_start, solve, p, boxes,
-                              substeps + step, stride, &block, &lists);
+                              substeps + step, stride, &block, &lists, weights);
     }
   }
   shares[get_global_id(0)] = excess;

@@ -1,6 +1,6 @@
 /* dfsph, a light pass: reads and writes what rate.cl does, errors as this work-item's share of their sum; reads also
-   the lists of neighbours. One work-item = one share of the rows, in blocks of SQUALL_LANES particles. For CPU
-   devices. */
+   the lists of neighbours and their weights. One work-item = one share of the rows, in blocks of SQUALL_LANES
+   particles. For CPU devices. */
 #include "shared.h"
 #include "switches.h"
 
@@ -8,19 +8,26 @@
 
 #include "solve_blocks.h"
 
+static inline Real plus_approaching(Real sum, const Lanes* a, __global const Scalar* b, Real weight) {
+  Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
+  return fma(weight, dot_product(x, y, z, (Real)(b[4]), (Real)(b[5]), (Real)(b[6])), sum);
+}
+
 static inline Real approaching_sum(__constant Params* p, __global const Scalar* records, const Places* places,
                                    __global const int* cell_start, const Block* block, const Lanes* a,
-                                   __global const int* list) {
+                                   __global const int* list, __global const Real* weights) {
   Real sum = (Real)(0);
+  if (has_weights(list)) {
+    for (int k = 0; k < list[0]; ++k) sum = plus_approaching(sum, a, records + 8 * (size_t)list[1 + k], weights[k]);
+    return sum;
+  }
   Neighbours neighbours;
   begin_neighbours(p, cell_start, block, a, list, &neighbours);
   int found[SQUALL_BATCH + 1], count;
   while ((count = next_neighbours(p, places, &neighbours, found)) > 0) {
     for (int k = 0; k < count; ++k) {
       __global const Scalar* b = records + 8 * (size_t)found[k];
-      Real x = a->x - (Real)(b[0]), y = a->y - (Real)(b[1]), z = a->z - (Real)(b[2]);
-      Real approaching = dot_product(x, y, z, (Real)(b[4]), (Real)(b[5]), (Real)(b[6]));
-      sum = fma(weight_of(p, squared_length(x, y, z)), approaching, sum);
+      sum = plus_approaching(sum, a, b, weight_between(p, a, b));
     }
   }
   return sum;
@@ -47,9 +54,9 @@ static inline long iterate_block(__constant Params* p, __global const Substep* n
 
 __kernel void rate_blocks(__global Scalar* records, __global const Scalar* x, __global const Scalar* y,
                           __global const Scalar* z, __global const int* cell_start, __global const int* lists,
-                          __global Scalar* solve, __global long* shares, __global const SolveState* state,
-                          __constant Params* p, __global const Substep* substeps, int stride, int step,
-                          int this_solve) {
+                          __global const Real* weights, __global Scalar* solve, __global long* shares,
+                          __global const SolveState* state, __constant Params* p, __global const Substep* substeps,
+                          int stride, int step, int this_solve) {
   if (state->solve != this_solve) return;
   Places places = {x, y, z};
   Share share;
@@ -63,7 +70,7 @@ __kernel void rate_blocks(__global Scalar* records, __global const Scalar* x, __
       Lanes lanes;
       make_block(p, x, row, begin, row_end, &block);
       load_block(records, &places, &block, &lanes);
-      Real sum = approaching_sum(p, records, &places, cell_start, &block, &lanes, list);
+      Real sum = approaching_sum(p, records, &places, cell_start, &block, &lanes, list, weights + (list - lists));
       errors += iterate_block(p, substeps + step, &block, &lanes, sum, state->momentum, stride, records, solve);
       list += 1 + max(*list, 0);
     }

@@ -70,8 +70,19 @@ static inline long sum_of_terms(Real errors, const Block* block) {
   return sum;
 }
 
-/* Without the scale; 0 from H on. */
-static inline Real weight_of(__constant Params* p, Real r2) {
+/* Of a list's pairs, at the list's place in memory of as many vectors as there are entries, one for the length
+   included: the k-th lies where its entry's predecessor would, so that prepare can write one too many. */
+static inline int has_weights(__global const int* list) {
+#if SQUALL_WEIGHTS
+  return list[0] != SQUALL_NO_LIST;
+#else
+  return 0;
+#endif
+}
+
+/* Computed again; the bits of one that was kept. Without the scale; 0 from H on. */
+static inline Real weight_between(__constant Params* p, const Lanes* a, __global const Scalar* b) {
+  Real r2 = squared_length(a->x - (Real)(b[0]), a->y - (Real)(b[1]), a->z - (Real)(b[2]));
   return bell_weight(bell_left(r2, (Real)(p->inverse_support_squared)));
 }
 

@@ -9,6 +9,9 @@
 #ifndef SQUALL_DFSPH /* 1: dfsph, with the bell kernel */
 #define SQUALL_DFSPH 0
 #endif
+#ifndef SQUALL_WEIGHTS /* dfsph with blocks: there is room to keep weights of pairs */
+#define SQUALL_WEIGHTS 1
+#endif
 #ifndef SQUALL_SMOOTHING /* dfsph: the scene asks for xsph */
 #define SQUALL_SMOOTHING 1
 #endif

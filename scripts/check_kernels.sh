@@ -18,7 +18,7 @@ kernels=(kernels/*.cl)
 }
 failed=0
 for kernel in "${kernels[@]}"; do
-  for switches in "-DSQUALL_"{"LANES=1","LANES=8","LANES=16","DOUBLE=1 -DSQUALL_LANES=1","DOUBLE=1 -DSQUALL_LANES=4","DOUBLE=1 -DSQUALL_LANES=8"}" -DSQUALL_"{WCSPH=0,WCSPH=1,DFSPH=1}; do
+  for switches in "-DSQUALL_"{"LANES=1","LANES=8","LANES=16","DOUBLE=1 -DSQUALL_LANES=1","DOUBLE=1 -DSQUALL_LANES=4","DOUBLE=1 -DSQUALL_LANES=8"}" -DSQUALL_"{WCSPH=0,WCSPH=1,DFSPH=1,"DFSPH=1 -DSQUALL_WEIGHTS=0"}; do
     # shellcheck disable=SC2086 # several options
     "$clang" -x cl -cl-std=CL1.2 -target spir64 -fsyntax-only -Xclang -finclude-default-header -Ikernels \
       -Wall -Wextra -Wno-unused-parameter -Werror $switches "$kernel" || { echo "$kernel with $switches: failed" >&2 && failed=1; }

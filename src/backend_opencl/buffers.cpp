@@ -62,6 +62,13 @@ std::vector<Request> bin_requests(const Layout& layout) {
   };
 }
 
+/// A vector of lanes for each entry of the lists.
+std::size_t weight_bytes(const Layout& layout, const WorkShape& shape) {
+  const auto lanes = static_cast<std::size_t>(shape.lanes);
+  const auto entries = static_cast<std::size_t>(list_entries(shape.lanes));
+  return (shape.weights ? at_least_one(layout.capacity) * entries : 1) * lanes * layout.scalar_bytes();
+}
+
 /// For the solves of dfsph.
 std::vector<Request> solve_requests(const Layout& layout, const WorkShape& shape) {
   std::vector<Request> all = {
@@ -71,6 +78,8 @@ std::vector<Request> solve_requests(const Layout& layout, const WorkShape& shape
   };
   if (shape.lanes == 1)
     all.push_back({&Buffers::errors, {"errors of particles", at_least_one(shape.capacity) * layout.scalar_bytes()}});
+  else
+    all.push_back({&Buffers::weights, {"weights of pairs", weight_bytes(layout, shape)}});
   return all;
 }
 
@@ -155,6 +164,7 @@ WorkShape make_shape(const Machine& machine, const Layout& layout) {
   WorkShape shape;
   shape.capacity = layout.capacity;
   shape.lanes = choose_lanes(machine, layout);
+  shape.weights = layout.dfsph && shape.lanes > 1;
   shape.group = value(work.group, shape.group);
   if (const auto largest = machine.device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(); shape.group > largest)
     throw InputError("work groups of " + std::to_string(shape.group) + " are too large for " + machine.info.name +

@@ -42,8 +42,10 @@ struct WorkShape {
   int lanes = 1;              ///< particles per vector: 1 gives every particle a work-item of its own, sort included
   std::size_t parts = 1;      ///< work-items over rows of cells, with more lanes than one
   std::size_t sum_group = 1;  ///< of work-items that sum up what dfsph goes on by, with one lane
+  bool weights = false;       ///< dfsph, with more lanes than one: keeps weights of pairs
 };
-/// Throws InputError for work sizes that are out of range, or too large for the device.
+/// With weights wherever dfsph may keep them, whether there is room or not. Throws InputError for work sizes that are
+/// out of range, or too large for the device.
 WorkShape make_shape(const Machine& machine, const Layout& layout);
 
 /// Shares of the sums that dfsph goes on by.
@@ -74,6 +76,7 @@ struct Buffers {
   cl::Buffer neighbours;             ///< likewise
   cl::Buffer x, y, z;                ///< likewise, for kernels that work on blocks
   cl::Buffer lists;                  ///< likewise: neighbours of blocks
+  cl::Buffer weights;                ///< dfsph: of their pairs, a vector of lanes for each entry of the lists
   cl::Buffer solve;                  ///< dfsph: fields of all particles, in sorted order (solve_state.h)
   cl::Buffer errors;                 ///< dfsph: likewise, for kernels with a work-item per particle
   cl::Buffer shares;                 ///< dfsph: of the sums that decide

@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "backend_opencl/errors.h"
@@ -254,17 +255,34 @@ Machine open_machine(const Settings& settings) {
   });
 }
 
-void check_limits(const Machine& machine, const std::vector<MemoryNeed>& needs) {
+namespace {
+
+struct Excess {
+  const char* what;
+  cl_ulong bytes, limit;
+};
+
+std::optional<Excess> find_excess(const Machine& machine, const std::vector<MemoryNeed>& needs) {
   const auto largest = machine.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   const auto constant = machine.device.getInfo<CL_DEVICE_MAX_CONSTANT_BUFFER_SIZE>();
   const auto all = machine.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   cl_ulong sum = 0;
   for (const auto& need : needs) {
     const cl_ulong limit = need.constant ? constant : largest;
-    if (need.bytes > limit) throw_too_large(machine, need.what, need.bytes, limit);
+    if (need.bytes > limit) return Excess{need.what, need.bytes, limit};
     sum += need.bytes;
   }
-  if (sum > all) throw_too_large(machine, "all buffers together", sum, all);
+  if (sum > all) return Excess{"all buffers together", sum, all};
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool fits(const Machine& machine, const std::vector<MemoryNeed>& needs) { return !find_excess(machine, needs); }
+
+void check_limits(const Machine& machine, const std::vector<MemoryNeed>& needs) {
+  if (const auto excess = find_excess(machine, needs))
+    throw_too_large(machine, excess->what, excess->bytes, excess->limit);
 }
 
 }  // namespace squall::opencl

@@ -47,6 +47,9 @@ struct MemoryNeed {
   bool constant = false;  ///< in the constant address space
 };
 
+/// Whether the device can hold each of them, and all together.
+bool fits(const Machine& machine, const std::vector<MemoryNeed>& needs);
+
 /// Throws DeviceError with need and limit if the device cannot hold one of them, or all together.
 void check_limits(const Machine& machine, const std::vector<MemoryNeed>& needs);
 

@@ -35,6 +35,12 @@ struct Record {
 };
 static_assert(sizeof(Record<float>) == 32 && sizeof(Record<double>) == 64);
 
+std::vector<MemoryNeed> all_needs(const Layout& layout, const WorkShape& shape) {
+  auto needs = memory_needs(layout, shape);
+  for (const auto& need : PositionReader::memory_needs(layout)) needs.push_back(need);
+  return needs;
+}
+
 template <class Scalar>
 class OpenclSolver final : public Solver {
  public:
@@ -127,12 +133,11 @@ void OpenclSolver<Scalar>::set_up() {
   layout.simd = settings().simd;
   layout.work = settings().work;
   shape_ = make_shape(machine_, layout);
-  auto needs = memory_needs(layout, shape_);
-  for (const auto& need : PositionReader::memory_needs(layout)) needs.push_back(need);
-  check_limits(machine_, needs);
+  shape_.weights = shape_.weights && fits(machine_, all_needs(layout, shape_));
+  check_limits(machine_, all_needs(layout, shape_));
 
   const auto begin = SteadyClock::now();
-  options_ = build_options(scene(), settings(), machine_.rounds_correctly, shape_.lanes);
+  options_ = build_options(scene(), settings(), machine_.rounds_correctly, shape_);
   const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(), options_);
   const bool shared = PositionReader::wants_shared(layout.readback) && shares_host_memory(machine_, program);
   buffers_ = make_buffers(machine_, layout, shape_, shared && PositionReader::delivers_records(layout));

@@ -4,15 +4,15 @@
 
 namespace squall::opencl {
 
-std::string build_options(const Scene& scene, const Settings& settings, bool rounds_correctly, int lanes) {
+std::string build_options(const Scene& scene, const Settings& settings, bool rounds_correctly, const WorkShape& shape) {
   const Pressure pressure = settings.pressure;
   const bool is_double = settings.precision == Precision::double_precision;
   const auto flag = [](const char* name, bool value) { return std::string(" -D") + name + (value ? "=1" : "=0"); };
   std::string options = "-cl-std=CL1.2";
   if (rounds_correctly) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  return options + " -DSQUALL_LANES=" + std::to_string(lanes) + flag("SQUALL_DOUBLE", is_double) +
+  return options + " -DSQUALL_LANES=" + std::to_string(shape.lanes) + flag("SQUALL_DOUBLE", is_double) +
          flag("SQUALL_WCSPH", pressure != Pressure::mueller) + flag("SQUALL_DFSPH", pressure == Pressure::dfsph) +
-         flag("SQUALL_SMOOTHING", scene.solver.xsph > 0.0) +
+         flag("SQUALL_WEIGHTS", shape.weights) + flag("SQUALL_SMOOTHING", scene.solver.xsph > 0.0) +
          flag("SQUALL_VISCOSITY", scene.fluid.viscosity_m2_s.has_value()) + flag("SQUALL_BOXES", !scene.boxes.empty()) +
          flag("SQUALL_DRAG", !scene.rains.empty());
 }

@@ -9,7 +9,7 @@
 namespace squall::opencl {
 
 /// Options for the kernels' compiler: switches of the scene and the device; no constants.
-std::string build_options(const Scene& scene, const Settings& settings, bool rounds_correctly, int lanes);
+std::string build_options(const Scene& scene, const Settings& settings, bool rounds_correctly, const WorkShape& shape);
 
 /// Everything of a sub-step but the sort, and the summary that ends a frame. dfsph has PressureSolve in place of
 /// density and forces.

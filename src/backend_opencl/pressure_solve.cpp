@@ -60,9 +60,9 @@ void PressureSolve::make_block_kernels(const cl::Program& program, const Buffers
   predict_ = cl::Kernel(program, "predict_blocks");
   drift_ = cl::Kernel(program, "drift_blocks");
   set_arguments(prepare_, b.sorted, b.densities, b.isolations, b.neighbours, b.x, b.y, b.z, b.cell_start, b.lists,
-                b.solve, b.shares, b.params, b.boxes, b.substeps, stride_, 0);
-  set_arguments(predict_, b.sorted, b.records, b.densities, b.isolations, b.x, b.y, b.z, b.cell_start, b.lists, b.solve,
-                state_, b.params, b.substeps, stride_, 0, 0);
+                b.weights, b.solve, b.shares, b.params, b.boxes, b.substeps, stride_, 0);
+  set_arguments(predict_, b.sorted, b.records, b.densities, b.isolations, b.x, b.y, b.z, b.cell_start, b.lists,
+                b.weights, b.solve, state_, b.params, b.substeps, stride_, 0, 0);
   set_arguments(drift_, b.records, b.x, b.y, b.z, b.cell_start, b.solve, b.clamps, state_, b.params, b.boxes,
                 b.substeps, stride_, 0, 0);
 }
@@ -88,19 +88,20 @@ PressureSolve::Solve PressureSolve::make_solve(const cl::Program& program, const
   } else {
     solve.rate = cl::Kernel(program, "rate_blocks");
     solve.push = cl::Kernel(program, "push_blocks");
-    set_arguments(solve.rate, records, b.x, b.y, b.z, b.cell_start, b.lists, b.solve, b.shares, state_, b.params,
-                  b.substeps, stride_, 0, which);
-    set_arguments(solve.push, records, b.x, b.y, b.z, b.cell_start, b.lists, b.solve, state_, b.params, stride_, which);
+    set_arguments(solve.rate, records, b.x, b.y, b.z, b.cell_start, b.lists, b.weights, b.solve, b.shares, state_,
+                  b.params, b.substeps, stride_, 0, which);
+    set_arguments(solve.push, records, b.x, b.y, b.z, b.cell_start, b.lists, b.weights, b.solve, state_, b.params,
+                  stride_, which);
   }
   return solve;
 }
 
 void PressureSolve::set_step(int step, int count) {
-  prepare_.setArg(either(shape_, 12, 15), step);
+  prepare_.setArg(either(shape_, 12, 16), step);
   begin_.setArg(6, step);
-  for (auto& solve : solves_) solve.rate.setArg(either(shape_, 9, 12), step);
-  predict_.setArg(either(shape_, 11, 14), step);
-  predict_.setArg(either(shape_, 12, 15), count);
+  for (auto& solve : solves_) solve.rate.setArg(either(shape_, 9, 13), step);
+  predict_.setArg(either(shape_, 11, 15), step);
+  predict_.setArg(either(shape_, 12, 16), count);
   drift_.setArg(either(shape_, 9, 12), step);
   drift_.setArg(either(shape_, 10, 13), count);
 }

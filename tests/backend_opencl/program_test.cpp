@@ -65,7 +65,10 @@ TEST(Program, BuildsWithoutAWarning) {
       scene.rains.emplace_back();
       Settings settings;
       settings.pressure = pressure;
-      const std::string options = build_options(scene, settings, machine.rounds_correctly, lanes);
+      WorkShape shape;
+      shape.lanes = lanes;
+      shape.weights = pressure == Pressure::dfsph && lanes > 1;
+      const std::string options = build_options(scene, settings, machine.rounds_correctly, shape);
       const cl::Program program = build_program(machine.context, machine.device, embedded_kernels(), options + mark);
       EXPECT_THAT(program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(machine.device), Not(HasSubstr("warning"))) << options;
     }

@@ -135,7 +135,7 @@ class SortBench {
     shape_ = make_shape(machine_, layout_);
     buffers_ = make_buffers(machine_, layout_, shape_, false);
     const cl::Program program = build_program(machine_.context, machine_.device, embedded_kernels(),
-                                              build_options(Scene{}, wcsph(), machine_.rounds_correctly, shape_.lanes));
+                                              build_options(Scene{}, wcsph(), machine_.rounds_correctly, shape_));
     Substep<float> substep{};
     substep.held_count = 1;
     machine_.queue.enqueueWriteBuffer(buffers_.substeps, CL_TRUE, 0, sizeof substep, &substep);
