@@ -1,6 +1,7 @@
 /* OpenCL only, for CPU devices: the blocks' lists of neighbours, found with density and used again by forces. A share
    of the rows owns as much of the memory as it has particles, and packs its lists from the start. A list that does not
-   fit is left out: forces search again. Nothing is lost but time, however many neighbours there are. */
+   fit is left out: forces search again. Nothing is lost but time, however many neighbours there are. dfsph has memory
+   of the same shape for weights of pairs (solve_blocks.h). */
 #ifndef SQUALL_LISTS_H
 #define SQUALL_LISTS_H
 

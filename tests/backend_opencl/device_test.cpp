@@ -121,6 +121,8 @@ TEST(Device, APartOfADeviceStaysUsableWhenItsSolverIsGone) {
 TEST(DeviceLimits, NamesNeedAndLimit) {
   const Machine machine = open_machine(Settings{});
   EXPECT_NO_THROW(check_limits(machine, {{"crumbs", 64}}));
+  EXPECT_TRUE(fits(machine, {{"crumbs", 64}}));
+  EXPECT_FALSE(fits(machine, {{"crumbs", 64}, {"records", std::size_t{1} << 50}}));
   const auto error = [&](const MemoryNeed& need) { return device_error_of([&] { check_limits(machine, {need}); }); };
   EXPECT_THAT(error({"records", std::size_t{1} << 50}), HasSubstr("records need 1073741824 MiB"));
   const auto constant = machine.device.getInfo<CL_DEVICE_MAX_CONSTANT_BUFFER_SIZE>();
@@ -133,6 +135,7 @@ TEST(DeviceLimits, CountsAllBuffersTogether) {
   const auto all = static_cast<std::size_t>(machine.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>());
   const std::vector<MemoryNeed> needs(all / largest + 1, MemoryNeed{"records", largest});
   EXPECT_THAT(device_error_of([&] { check_limits(machine, needs); }), HasSubstr("all buffers together"));
+  EXPECT_FALSE(fits(machine, needs));
 }
 
 }  // namespace
