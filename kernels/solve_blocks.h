@@ -70,8 +70,9 @@ static inline long sum_of_terms(Real errors, const Block* block) {
   return sum;
 }
 
-/* Of a list's pairs, at the list's place in memory of as many vectors as there are entries, one for the length
-   included: the k-th lies where its entry's predecessor would, so that prepare can write one too many. */
+/* Whether the weights of the list's pairs are kept. There is a vector of memory for each entry of the lists' memory,
+   and the weights begin where the list does, at its length: the vector that is left over at the end takes what prepare
+   writes beyond a list that is full. */
 static inline int has_weights(__global const int* list) {
 #if SQUALL_WEIGHTS
   return list[0] != SQUALL_NO_LIST;
