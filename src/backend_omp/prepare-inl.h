@@ -48,11 +48,8 @@ SQUALL_NOINLINE int find_weights(const PassContext<Scalar>& context, const Pack*
   Pack kernel[2] = {Pack(0.0f), Pack(0.0f)};  // by the parity of the sorted index
   Pack squares(0.0f);
   std::ptrdiff_t kept = 0;
-  list[count] = 0;  // looked up in vain
-  int next = list[0];
   for (int k = 0; k < count; ++k) {
-    const int j = next;
-    next = list[k + 1];
+    const int j = list[k];
     const Record<Scalar>& b = records[j];
     const Pack r2 = squared_length(x - Pack(b.x), y - Pack(b.y), z - Pack(b.z));
     const Pack left = bell_left(r2, inverse_support_squared);

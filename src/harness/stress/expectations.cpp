@@ -30,7 +30,8 @@ constexpr const char* k_corrects =
     "(docs/dfsph.md)";
 constexpr const char* k_pulled =
     "nothing pushes where water is less dense than at rest: particles may come close there";
-constexpr const char* k_jets = "spray of single particles leaves the gap's mouth a tenth faster than a front";
+constexpr const char* k_jets =
+    "its fastest particles are up to a tenth faster than a front; where they get that from is not known yet";
 constexpr const char* k_inside = "nothing keeps a drop from being put into water; above it, it is not";
 
 constexpr std::array k_known{
