@@ -103,7 +103,7 @@ int command_compare(const Options& options) {
   if (!options.json_alone())
     std::cout << headline(workload) << "\n" << comparison_text(comparison, options.budget_ms) << std::flush;
   else
-    print_notes(convergence_notes(comparison.rows), options.quiet);
+    print_notes(water_notes(comparison.rows), options.quiet);
   write_result(options, workload, backends, comparison.rows, comparison.agreement);
   if (folder) write_frames(comparison, *folder);
   print_notes(write_trace(options, traced_runs(comparison)), options.quiet);

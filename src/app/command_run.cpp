@@ -62,7 +62,7 @@ class Outputs {
       if (checkpoints_) checkpoints_->finish(run);
     });
     if (!options_.json_alone()) std::cout << run_result_text(options_, workload_, row) << std::flush;
-    if (options_.json_alone()) print_notes(convergence_notes({row}), options_.quiet);
+    if (options_.json_alone()) print_notes(water_notes({row}), options_.quiet);
     attempts_([&] { write_result(options_, workload_, backends, {row}, std::nullopt); });
     attempts_([&] {
       if (folder_) folder_->finish();

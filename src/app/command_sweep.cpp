@@ -19,7 +19,7 @@
 #include "core/errors.h"
 #include "harness/report/gnuplot.h"
 #include "harness/sweep_analysis.h"
-#include "harness/unconverged.h"
+#include "harness/water_warnings.h"
 
 namespace squall::app {
 
@@ -62,16 +62,16 @@ int exit_code(const Options& options, const harness::Sweep& sweep, const std::ve
   return options.budget_ms && !keeps_budget_somewhere(sweep) ? k_exit_budget : k_exit_fine;
 }
 
-/// At most one sentence per size: its runs are the same water.
-std::vector<std::string> convergence_notes(const harness::Sweep& sweep) {
+/// Of the first run of each size that has any: its runs are the same water.
+std::vector<std::string> water_notes(const harness::Sweep& sweep) {
   std::vector<std::string> notes;
   for (const auto& size : sweep.sizes)
     for (const auto& point : sweep.points) {
       if (point.size.scene_hash != size.size.scene_hash) continue;
-      const auto text = harness::unconverged_text(point.row.unconverged, point.row.steps);
-      if (text.empty()) continue;
-      notes.push_back(fmt::format("{} particles: {}", harness::count_text(size.particles), text));
-      break;
+      const auto warnings = harness::water_warnings(point.row);
+      for (const auto& text : warnings)
+        notes.push_back(fmt::format("{} particles: {}", harness::count_text(size.particles), text));
+      if (!warnings.empty()) break;
     }
   return notes;
 }
@@ -144,7 +144,7 @@ int command_sweep(const Options& options) {
   result.sweep = measure(scene_at, result.plan, Progress(options.quiet, workload.info.name), interrupt, folder);
   auto& notes = result.sweep.notes;
   notes.insert(notes.end(), rain.begin(), rain.end());
-  const auto convergence = convergence_notes(result.sweep);
+  const auto convergence = water_notes(result.sweep);
   notes.insert(notes.end(), convergence.begin(), convergence.end());
   print_notes(notes, options.quiet);
   notes.insert(notes.end(), plans.left_out.begin(), plans.left_out.end());

@@ -8,7 +8,7 @@
 #include "app/terminal.h"
 #include "core/state_hash.h"
 #include "harness/results_json.h"
-#include "harness/unconverged.h"
+#include "harness/water_warnings.h"
 
 namespace squall::app {
 
@@ -54,19 +54,18 @@ std::string iterations_text(const harness::Row& row) {
   if (row.light_pass_ns)
     text +=
         fmt::format("; {:.1f} light passes, {:.2f} ns per particle each", row.light_passes_mean, *row.light_pass_ns);
-  if (const auto warning = harness::unconverged_text(row.unconverged, row.steps); !warning.empty())
-    text += "\n" + red("warning: " + warning);
+  for (const auto& warning : harness::water_warnings(row)) text += "\n" + red("warning: " + warning);
   return text;
 }
 
 }  // namespace
 
-std::vector<std::string> convergence_notes(const std::vector<harness::Row>& rows) {
+std::vector<std::string> water_notes(const std::vector<harness::Row>& rows) {
   std::vector<std::string> notes;
-  std::set<std::string> told{""};
+  std::set<std::string> told;
   for (const auto& row : rows)
-    if (const auto text = harness::unconverged_text(row.unconverged, row.steps); told.insert(text).second)
-      notes.push_back(fmt::format("{}: {}", row.plan.label, text));
+    for (const auto& text : harness::water_warnings(row))
+      if (told.insert(text).second) notes.push_back(fmt::format("{}: {}", row.plan.label, text));
   return notes;
 }
 

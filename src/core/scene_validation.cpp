@@ -8,6 +8,7 @@
 #include "core/fill.h"
 #include "core/frame_plan.h"
 #include "core/rain.h"
+#include "core/same_place.h"
 #include "core/scene.h"
 #include "core/scene_keys.h"
 
@@ -54,6 +55,7 @@ class Checker {
     for_each("rain", scene_.rains, &Checker::check_rain);
     for_each("gauge", scene_.gauges, &Checker::check_gauge);
     check_count();
+    check_places();
   }
 
  private:
@@ -300,6 +302,37 @@ class Checker {
       fail({"fluid"}, "spacing_m",
            "the scene has " + number_text(count) + " particles, rain included; allowed is up to " +
                std::to_string(k_max_particles) + "; raise spacing_m");
+  }
+
+  /// Blocks are lattices apart from each other; only what comes from a file can lie twice in one place.
+  void check_places() const {
+    if (scene_.particle_files.empty()) return;
+    const auto twins = same_place(initial_particles(scene_).positions);
+    if (!twins) return;
+    const Origin second = origin_of(twins->second);
+    fail({"particles", second.file}, "file",
+         second.text + " lies in the same place as " + origin_of(twins->first).text +
+             ": nothing could ever push them apart; move or remove one of them");
+  }
+
+  struct Origin {
+    std::size_t file;  ///< counted from 1; 0: a block
+    std::string text;
+  };
+
+  /// Of the particle with this index at the start.
+  Origin origin_of(std::size_t index) const {
+    for (const Scene::Block& block : scene_.blocks) {
+      const auto count = static_cast<std::size_t>(block_points(scene_, block));
+      if (index < count) return {0, "a particle of block " + std::to_string(1 + (&block - scene_.blocks.data()))};
+      index -= count;
+    }
+    std::size_t file = 0;
+    while (index >= scene_.particle_files[file].particles.size())
+      index -= scene_.particle_files[file++].particles.size();
+    const Particles& particles = scene_.particle_files[file].particles;
+    return {file + 1, "particle " + std::to_string(index + 1) + " of '" + scene_.particle_files[file].file + "' at " +
+                          vector_text(particles.positions[index])};
   }
 
   const Scene& scene_;

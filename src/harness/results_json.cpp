@@ -76,6 +76,7 @@ void add_water(const Row& row, Json& json) {
   if (row.plan.settings.pressure == Pressure::dfsph) add_iterations(row, json);
   json["density_error_mean"] = number(row.density_error_mean);
   json["density_error_max"] = number(row.density_error_max);
+  json["density_error_worst"] = number(row.density_error_worst);
   json["energy_drift"] = number(row.energy_drift);
   if (row.position_error_dx) json["position_error_dx"] = number(row.position_error_dx);
 }

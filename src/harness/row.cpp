@@ -58,6 +58,7 @@ void summarise_particles(const std::vector<FrameRecord>& frames, Row& row) {
     neighbours += count * report.neighbours_mean;
     density += count * report.density_error_mean;
     row.density_error_max = std::max(row.density_error_max, report.density_error_max);
+    row.density_error_worst = std::max(row.density_error_worst, report.density_error_mean);
     row.clamps += report.clamps;
   }
   const double compute_s = sum(collect(frames, [](const auto& report) { return report.compute_ms; })) / 1000.0;

@@ -145,6 +145,7 @@ Row Run::row() const {
   row.start_frame = start_.clock.frame;
   row.lost_particles = solver_->report().lost;
   row.state_hash = state_hash_;
+  row.density_tolerance = scene().solver.density_tolerance;
   summarise(frames_, 1.0 / scene().time.frame_rate_hz, row);
   const double energy = total_energy(scene(), state_.particles);
   if (energy_in_ != 0.0 && error_.empty()) row.energy_drift = (energy - energy_in_) / std::abs(energy_in_);

@@ -251,6 +251,27 @@ TEST(RunCommand, SolvesThatEndAtTheirLimitAreSaidAndNoError) {
   EXPECT_EQ(enough.err.find(told), std::string::npos);
 }
 
+TEST(RunCommand, WaterThatStaysTooDenseIsSaidThoughEverySolveConverged) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "crowd.csv") << "x,y,z,vx,vy,vz\n0.5,0.5,0.5,0,0,0\n0.501,0.5,0.5,0,0,0\n0.5,0.501,0.5,0,0,0\n"
+                                         "0.5,0.5,0.501,0,0,0\n0.5,0.501,0.501,0,0,0\n0.501,0.501,0.501,0,0,0\n";
+  const std::string file = folder / "crowd.toml";
+  std::ofstream(file) << "schema = 1\n[time]\nduration_s = 1.0\n[fluid]\nspacing_m = 0.1\n[container]\n"
+                         "min_m = [0, 0, 0]\nmax_m = [1, 1, 1]\n[[particles]]\nfile = \"crowd.csv\"\n";
+  const std::string told = "where density_tolerance asks for 0.1 %";
+  const auto run = [&](const std::string& pressure) {
+    const Outcome outcome =
+        squall({"run", file, "--pressure", pressure, "--backend", "omp", "--frames", "1", "--json", "-"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome;
+  };
+  const Outcome outcome = run("dfsph");
+  EXPECT_EQ(run_of(outcome)["unconverged"], 0);
+  EXPECT_GT(run_of(outcome)["density_error_worst"], 0.01);
+  EXPECT_NE(outcome.err.find(told), std::string::npos) << outcome.err;
+  EXPECT_EQ(run("wcsph").err.find(told), std::string::npos) << "which promises no density";
+}
+
 TEST(RunCommand, AForcedSolverThatCannotRunASceneMayBeReplaced) {
   const TemporaryFolder folder;
   std::string text = text_of(k_tiny);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/errors.h"
+#include "core/fill.h"
 #include "core/scene.h"
 
 namespace {
@@ -371,6 +372,26 @@ TEST_F(ChangedScene, WithAParticleThatIsNotFiniteIsRefused) {
   scene.particle_files[0].particles.positions[0].y() = 1.0;
   scene.particle_files[0].particles.velocities[0].x() = std::nan("");
   EXPECT_THAT(refusal(), HasSubstr("has velocity (nan, 0, 0) m/s; allowed is up to 1000"));
+}
+
+TEST_F(ChangedScene, WithTwoParticlesInOnePlaceIsRefused) {
+  scene.particle_files.push_back({"a.csv", {}});
+  scene.particle_files.push_back({"b.csv", {}});
+  squall::Particles& a = scene.particle_files[0].particles;
+  squall::Particles& b = scene.particle_files[1].particles;
+  a.add(0, {1.0, 1.0, 0.5}, {0, 0, 0});
+  a.add(1, {1.0, 1.0, 0.6}, {0, 0, 0});
+  b.add(0, {1.0, 1.0, 0.7}, {0, 0, 0});
+  EXPECT_EQ(refusal(), "accepted");
+  b.add(1, {1.0, 1.0, 0.6}, {1, 0, 0});
+  EXPECT_THAT(refusal(), StartsWith("particle 2 of 'b.csv' at (1, 1, 0.6) lies in the same place as particle 2 of "
+                                    "'a.csv' at (1, 1, 0.6): nothing could ever push them apart"));
+  b.positions[1].z() = 0.6 + 1e-10;  // rounds to the same number in single precision
+  EXPECT_THAT(refusal(), HasSubstr("lies in the same place"));
+  b.positions[1].z() = 0.6 + 1e-6;
+  EXPECT_EQ(refusal(), "accepted");
+  b.positions[1] = squall::initial_particles(scene).positions[0] + scene.container.min_m;  // of the block
+  EXPECT_THAT(refusal(), HasSubstr("lies in the same place as a particle of block 1"));
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ TEST(Json, HasTheNamesOfTheResultFormat) {
                                                 "iterations_mean",
                                                 "density_error_mean",
                                                 "density_error_max",
+                                                "density_error_worst",
                                                 "energy_drift",
                                                 "clamps",
                                                 "lost_particles",

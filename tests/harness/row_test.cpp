@@ -39,6 +39,7 @@ TEST(Row, FollowsFromItsFrames) {
   EXPECT_DOUBLE_EQ(row.neighbours_mean, (100.0 * 30.0 + 300.0 * 10.0) / 400.0);
   EXPECT_DOUBLE_EQ(row.density_error_mean, (100.0 * 0.3 + 300.0 * 0.1) / 400.0);
   EXPECT_DOUBLE_EQ(row.density_error_max, 3.0);
+  EXPECT_DOUBLE_EQ(row.density_error_worst, 0.3);
   EXPECT_EQ(row.clamps, 6);
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/state_hash.h"
-#include "harness/unconverged.h"
 
 namespace squall::harness {
 
@@ -183,7 +182,7 @@ std::vector<std::string> remarks(const CaseResult& result) {
         all.push_back(fmt::format("{}: FAILS{}", what, problem.empty() ? "" : ": " + problem));
     }
   for (const auto& run : result.runs)
-    if (const auto warning = unconverged_text(run.unconverged, run.steps); !warning.empty())
+    for (const auto& warning : run.warnings)
       all.push_back(fmt::format("{}: {}", run_name(run), warning));
   return all;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/validation/observer.h"
+#include "harness/water_warnings.h"
 
 namespace squall::harness {
 
@@ -43,6 +44,7 @@ void summarise(const Run& run, CaseRun& result) {
   result.steps = row.steps;
   result.clamps = row.clamps;
   result.unconverged = row.unconverged;
+  result.warnings = water_warnings(row);
 }
 
 }  // namespace
