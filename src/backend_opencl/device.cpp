@@ -174,12 +174,12 @@ cl::Device limit_threads(const cl::Device& device, int threads) {
   return part() == nullptr ? device : part;
 }
 
-std::string mebibytes(cl_ulong bytes) { return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB"; }
-
+/// What is needed rounds up, what there is rounds down: never the same number for too much and enough.
 [[noreturn]] void throw_too_large(const Machine& machine, const std::string& what, cl_ulong need, cl_ulong limit) {
-  throw DeviceError(machine.info.name + " cannot hold the scene: " + what + " need " + mebibytes(need) +
-                    ", the device allows " + mebibytes(limit) +
-                    "; use fewer particles, a larger spacing, a smaller container or another --device");
+  throw DeviceError(machine.info.name + " cannot hold the scene: " + what + " need " +
+                    std::to_string((need + (1 << 20) - 1) >> 20) + " MiB" + ", the device allows " +
+                    std::to_string(limit >> 20) +
+                    " MiB; use fewer particles, a larger spacing, a smaller container or another --device");
 }
 
 }  // namespace

@@ -107,6 +107,21 @@ TEST(Faults, ADeviceThatFailsAtTheStartIsSaid) {
   fails("clGetDeviceIDs -6 1", "CL_OUT_OF_HOST_MEMORY (-6)");
 }
 
+// dfsph keeps the weights of pairs where the device has room for them; what it gives does not depend on that.
+TEST(Faults, ADeviceWithoutRoomForWeightsComputesThemAgain) {
+  const auto run = [](const Environment& environment) {
+    const Outcome outcome = squall({"run", SQUALL_SCENES_DIR "/collapse.toml", "--particles", "3000", "--frames", "2",
+                                    "--quiet", "--backend", "opencl", "--json", "-"},
+                                   environment);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json::parse(outcome.out);
+  };
+  const json with = run({}), without = run(fault("clGetDeviceInfo 1000000 1"));
+  EXPECT_EQ(with.at("runs").at(0).at("state_hash"), without.at("runs").at(0).at("state_hash"));
+  EXPECT_THAT(with.dump(), HasSubstr("-DSQUALL_WEIGHTS=1"));
+  EXPECT_THAT(without.dump(), HasSubstr("-DSQUALL_WEIGHTS=0"));
+}
+
 // At the start, while it warms up and in its first frame: what an earlier run left in the folder stays.
 TEST(Faults, ADeviceThatFailsBeforeItsFirstFrameLeavesEarlierResults) {
   const TemporaryFolder folder;

@@ -1,6 +1,7 @@
 // A library to be preloaded: calls into OpenCL and for memory fail where a test asks for it, as a device that is lost
 // or full makes them fail. SQUALL_FAULT is "FUNCTION CODE CALL": from its CALL-th call (from 1) on, FUNCTION returns
-// CODE. Everything else goes where it would go.
+// CODE. "clGetDeviceInfo BYTES 1" makes every device say that it allows no larger buffer. Everything else goes where it
+// would go.
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <dlfcn.h>
@@ -89,6 +90,16 @@ cl_mem CL_API_CALL clCreateBuffer(cl_context context, cl_mem_flags flags, std::s
   }
   static auto* const real = next<decltype(clCreateBuffer)>("clCreateBuffer");
   return real(context, flags, size, memory, error);
+}
+
+cl_int CL_API_CALL clGetDeviceInfo(cl_device_id device, cl_device_info name, std::size_t size, void* value,
+                                   std::size_t* size_needed) {
+  static auto* const real = next<decltype(clGetDeviceInfo)>("clGetDeviceInfo");
+  const cl_int result = real(device, name, size, value, size_needed);
+  if (name != CL_DEVICE_MAX_MEM_ALLOC_SIZE || value == nullptr || !fault().strikes("clGetDeviceInfo")) return result;
+  const auto bytes = static_cast<cl_ulong>(fault().code);
+  std::memcpy(value, &bytes, sizeof bytes);
+  return result;
 }
 
 /// Only large ones: neighbour lists, not what starts a process.
