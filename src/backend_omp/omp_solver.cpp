@@ -1,64 +1,24 @@
 #include <omp.h>
-#include <pthread.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <string>
-#include <thread>
 #include <type_traits>
 
 #include "backend_omp/counting_sort.h"
+#include "backend_omp/machine.h"
 #include "backend_omp/omp_backend.h"
+#include "backend_omp/particle_arrays.h"
 #include "backend_omp/passes.h"
 #include "backend_omp/phase_clock.h"
 #include "backend_omp/pressure_solve.h"
 #include "backend_omp/row_split.h"
 #include "backend_omp/team_array.h"
-#include "core/address_space.h"
 #include "core/precision.h"
-#include "grid.h"
 
 namespace squall::openmp {
 
 namespace {
-
-std::string processor_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos)
-      return line.substr(line.find(": ") + 2);
-  return "CPU";
-}
-
-Simd choose_simd(Simd wanted) {
-  const std::vector<Simd> available = available_simd();
-  if (wanted == Simd::best) return available.back();
-  if (std::find(available.begin(), available.end(), wanted) == available.end())
-    throw DeviceError(std::string("this machine cannot run ") + to_string(wanted) + " code; it can run up to " +
-                      to_string(available.back()));
-  return wanted;
-}
-
-std::size_t stack_bytes() {
-  pthread_attr_t attributes;
-  std::size_t bytes = 0;
-  pthread_attr_init(&attributes);
-  pthread_attr_getstacksize(&attributes, &bytes);
-  pthread_attr_destroy(&attributes);
-  return bytes;
-}
-
-/// As many as asked for, or all. Throws DeviceError where there is no room for their stacks: OpenMP would end the
-/// process.
-int choose_threads(int wanted) {
-  const int threads = wanted > 0 ? wanted : omp_get_max_threads();
-  const std::string problem = address_space_problem("a team of " + std::to_string(threads) + " threads",
-                                                    static_cast<std::size_t>(threads - 1) * stack_bytes());
-  if (!problem.empty()) throw DeviceError(problem + ", or use fewer threads");
-  return threads;
-}
 
 constexpr std::size_t k_particles_per_thread = 256;  ///< fewer are done before another thread has woken up
 
@@ -76,9 +36,10 @@ class OmpSolver final : public Solver {
         barrier_(threads_),
         sort_(p_.cell_count, threads_),
         lists_(static_cast<std::size_t>(threads_)),
-        solve_(passes_, scene.solver, threads_) {
+        solve_(passes_, scene.solver, threads_),
+        particles_(terms_, settings.statistics, threads_) {
     for (const auto& box : boxes()) boxes_.push_back(in_precision<Scalar>(box));
-    resize(0);
+    if (terms_.pressure == Pressure::dfsph) solve_.resize(k_padding, threads_);
   }
 
   SolverInfo info() const override {
@@ -86,46 +47,15 @@ class OmpSolver final : public Solver {
   }
 
  private:
-  using Vector = Eigen::Matrix<Scalar, 3, 1>;
-
   void do_load(const Particles& particles) override {
-    count_ = 0;
+    particles_.count = 0;
     lost_ = 0;
     do_append(particles);
   }
 
   void do_append(const Particles& particles) override {
-    const std::size_t first = count_;
-    resize(count_ + particles.size());
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      const Vector x = particles.positions[i].cast<Scalar>(), v = particles.velocities[i].cast<Scalar>();
-      const auto pressure = static_cast<Scalar>(particles.pressures[i]);
-      state_[first + i] = {x.x(), x.y(), x.z(), pressure, v.x(), v.y(), v.z(), 0};
-      ids_[ids_now_][first + i] = particles.ids[i];
-      lost_ += is_lost(x.x());
-    }
-  }
-
-  /// Room for `count` particles and the padding behind them, which lies far away from everything.
-  void resize(std::size_t count) {
-    constexpr Scalar k_far = SQUALL_LOST_COORDINATE;
-    const Record<Scalar> far{k_far, k_far, k_far, 0, 0, 0, 0, 0};
-    const std::size_t padded = count + k_padding;
-    state_.resize(padded, far, threads_);
-    sorted_.resize(padded, far, threads_);
-    std::fill(sorted_.data() + count, sorted_.data() + padded, far);
-    for (auto* coordinates : {&x_, &y_, &z_}) {
-      coordinates->resize(padded, k_far, threads_);
-      std::fill(coordinates->data() + count, coordinates->data() + padded, k_far);
-    }
-    for (auto& ids : ids_) ids.resize(padded, 0, threads_);
-    keys_.resize(padded, 0, threads_);
-    density_.resize(padded, Scalar(1), threads_);
-    if (settings().statistics) neighbours_.resize(padded, 0, threads_);
-    if (terms_.pressure == Pressure::mueller) pressure_.resize(padded, Scalar(0), threads_);
-    if (terms_.drag) isolation_.resize(padded, Scalar(0), threads_);
-    if (terms_.pressure == Pressure::dfsph) solve_.resize(padded, threads_);
-    count_ = count;
+    lost_ += particles_.append(particles);
+    if (terms_.pressure == Pressure::dfsph) solve_.resize(particles_.count + k_padding, threads_);
   }
 
   void do_advance(const FramePlan& plan, Delivery delivery, FrameReport& report) override {
@@ -134,7 +64,7 @@ class OmpSolver final : public Solver {
     results_.assign(static_cast<std::size_t>(threads_), {});
     PhaseClock clock(settings(), frame_start(), substeps.size(), report);
     // More threads than the work is worth would only wait for each other. The bits do not depend on how many there are.
-    const auto worth = static_cast<int>(std::min<std::size_t>(count_ / k_particles_per_thread, 1024));
+    const auto worth = static_cast<int>(std::min<std::size_t>(particles_.count / k_particles_per_thread, 1024));
 #pragma omp parallel num_threads(std::clamp(worth, 1, threads_))
     {
       // OMP_DYNAMIC, OMP_THREAD_LIMIT or a caller that is itself parallel may have given fewer.
@@ -144,7 +74,7 @@ class OmpSolver final : public Solver {
       barrier_.enter(thread);
       const std::size_t done = advance_thread(thread, substeps, clock, report);
 #pragma omp single
-      ids_now_ = (ids_now_ + done) % 2;
+      particles_.ids_now = (particles_.ids_now + done) % 2;
     }
     largest_team_ = std::max(largest_team_, barrier_.threads());
     if (!k_delivers_in_place && delivery == Delivery::positions) round_positions(report);
@@ -155,20 +85,21 @@ class OmpSolver final : public Solver {
   /// out.
   std::size_t advance_thread(int thread, const std::vector<Substep<Scalar>>& substeps, PhaseClock& clock,
                              FrameReport& report) {
-    const auto count = static_cast<int>(count_);
+    const auto count = static_cast<int>(particles_.count);
     Range chunk = share_of(count, thread, barrier_.threads());
     for (std::size_t s = 0; s < substeps.size(); ++s) {
-      const auto& ids = ids_[(ids_now_ + s) % 2];
-      auto& sorted_ids = ids_[(ids_now_ + s + 1) % 2];
+      const auto& ids = particles_.ids[(particles_.ids_now + s) % 2];
+      auto& sorted_ids = particles_.ids[(particles_.ids_now + s + 1) % 2];
       if (substeps[s].released_count > 0) release(thread, substeps[s], ids);
-      const UnsortedParticles<Scalar> from{state_.data(), ids.data(), keys_.data()};
+      const UnsortedParticles<Scalar> from{particles_.state.data(), ids.data(), particles_.keys.data()};
       if (s == 0) {
         sort_.clear_counts(thread);
         sort_.count(thread, chunk, p_, held_in(substeps[s]), from);
         barrier_.wait(thread);
       }
-      sort_.sort(barrier_, thread, chunk, count, from,
-                 {sorted_.data(), sorted_ids.data(), x_.data(), y_.data(), z_.data()});
+      sort_.sort(
+          barrier_, thread, chunk, count, from,
+          {particles_.sorted.data(), sorted_ids.data(), particles_.x.data(), particles_.y.data(), particles_.z.data()});
       if (thread == 0) clock.finish("sort");
       const Range rows = split_rows(sort_.cell_start(), p_, passes_.lanes, thread, barrier_.threads());
       if (!find_pressures(thread, substeps[s], rows, clock, report)) return s;
@@ -176,7 +107,7 @@ class OmpSolver final : public Solver {
       // What is held or lost stays as it is, but may be held no longer. Its keys are counted after those of the rows.
       if (thread == barrier_.threads() - 1 && s + 1 < substeps.size())
         sort_.count(thread, {sort_.cell_start()[p_.cell_count], count}, p_, held_in(substeps[s + 1]),
-                    {state_.data(), sorted_ids.data(), keys_.data()});
+                    {particles_.state.data(), sorted_ids.data(), particles_.keys.data()});
       barrier_.wait(thread);
       if (thread == 0) {
         clock.finish(terms_.pressure == Pressure::dfsph ? "drift" : "forces");
@@ -196,16 +127,16 @@ class OmpSolver final : public Solver {
             boxes_.data(),
             terms_,
             sort_.cell_start(),
-            sorted_.data(),
-            x_.data(),
-            y_.data(),
-            z_.data(),
-            state_.data(),
-            keys_.data(),
-            density_.data(),
-            pressure_.data(),
-            isolation_.data(),
-            neighbours_.data(),
+            particles_.sorted.data(),
+            particles_.x.data(),
+            particles_.y.data(),
+            particles_.z.data(),
+            particles_.state.data(),
+            particles_.keys.data(),
+            particles_.density.data(),
+            particles_.pressure.data(),
+            particles_.isolation.data(),
+            particles_.neighbours.data(),
             solve_.arrays()};
   }
 
@@ -234,8 +165,9 @@ class OmpSolver final : public Solver {
     const int* start = sort_.cell_start();
     Range chunk{start[rows.begin * p_.cells_x], start[rows.end * p_.cells_x]};
     if (thread == barrier_.threads() - 1) {
-      chunk.end = static_cast<int>(count_);
-      copy_inactive();
+      chunk.end = static_cast<int>(particles_.count);
+      // Held and lost particles stay as they are.
+      particles_.keep_from(static_cast<std::size_t>(start[p_.cell_count]));
     }
     return chunk;
   }
@@ -243,23 +175,18 @@ class OmpSolver final : public Solver {
   /// Particles freed now start with half a kick, like everything at the start: the other half is taken back.
   void release(int thread, const Substep<Scalar>& substep, const TeamArray<std::uint32_t>& ids) {
     const Scalar half = substep.previous_dt * p_.one_half;
-    const Range share = share_of(static_cast<int>(count_), thread, barrier_.threads());
+    const Range share = share_of(static_cast<int>(particles_.count), thread, barrier_.threads());
     for (int g = substep.held_count; g < substep.held_count + substep.released_count; ++g) {
       const HeldGroup& group = held_groups()[static_cast<std::size_t>(g)];
       for (auto i = static_cast<std::size_t>(share.begin); i < static_cast<std::size_t>(share.end); ++i) {
         if (ids[i] < group.first_id || ids[i] >= group.end_id) continue;
-        state_[i].vx = nfma(half, substep.acceleration_x, state_[i].vx);
-        state_[i].vy = nfma(half, substep.acceleration_y, state_[i].vy);
-        state_[i].vz = nfma(half, substep.acceleration_z, state_[i].vz);
+        Record<Scalar>& r = particles_.state[i];
+        r.vx = nfma(half, substep.acceleration_x, r.vx);
+        r.vy = nfma(half, substep.acceleration_y, r.vy);
+        r.vz = nfma(half, substep.acceleration_z, r.vz);
       }
     }
     barrier_.wait(thread);
-  }
-
-  /// Held and lost particles stay as they are.
-  void copy_inactive() {
-    const auto first = static_cast<std::size_t>(sort_.cell_start()[p_.cell_count]);
-    std::copy(sorted_.data() + first, sorted_.data() + count_, state_.data() + first);
   }
 
   bool any_out_of_memory() const {
@@ -295,56 +222,29 @@ class OmpSolver final : public Solver {
   /// Positions are delivered in single precision: where they lie, or as round_positions() left them.
   PositionsView do_positions() override {
     if constexpr (k_delivers_in_place)
-      return {state_.data(), PositionFormat::float32, sizeof(Record<Scalar>), count_};
+      return {particles_.state.data(), PositionFormat::float32, sizeof(Record<Scalar>), particles_.count};
     else
-      return {rounded_.data(), PositionFormat::float32, sizeof(Position), count_};
+      return {rounded_.data(), PositionFormat::float32, sizeof(Position), particles_.count};
   }
 
   void round_positions(FrameReport& report) {
     const auto start = std::chrono::steady_clock::now();
-    rounded_.resize(count_, {}, threads_);
-    const auto count = static_cast<std::int64_t>(count_);
+    rounded_.resize(particles_.count, {}, threads_);
+    const auto count = static_cast<std::int64_t>(particles_.count);
 #pragma omp parallel for schedule(static) num_threads(barrier_.threads())
     for (std::int64_t i = 0; i < count; ++i) {
-      const Record<Scalar>& r = state_[static_cast<std::size_t>(i)];
+      const Record<Scalar>& r = particles_.state[static_cast<std::size_t>(i)];
       rounded_[static_cast<std::size_t>(i)] = {static_cast<float>(r.x), static_cast<float>(r.y),
                                                static_cast<float>(r.z)};
     }
-    report.readback_copied_bytes = count_ * sizeof(Position);
+    report.readback_copied_bytes = particles_.count * sizeof(Position);
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     report.readback_ms = taken.count();
   }
 
-  Particles do_download() override {
-    Particles particles;
-    particles.reserve(count_);
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Record<Scalar>& r = state_[i];
-      particles.add(ids_[ids_now_][i], Vector(r.x, r.y, r.z).template cast<double>(),
-                    Vector(r.vx, r.vy, r.vz).template cast<double>(),
-                    terms_.pressure == Pressure::dfsph ? static_cast<double>(r.pressure_term) : 0.0);
-    }
-    return particles;
-  }
+  Particles do_download() override { return particles_.download(); }
 
-  Fields do_fields() override {
-    Fields fields;
-    const auto active = static_cast<std::size_t>(sort_.cell_start()[p_.cell_count]);
-    for (std::size_t i = 0; i < active; ++i) {
-      const double density = static_cast<double>(density_[i]);
-      fields.densities.push_back(density);
-      fields.pressures.push_back(pressure_of(i, density));
-      if (settings().statistics) fields.neighbours.push_back(neighbours_[i]);
-    }
-    return fields;
-  }
-
-  /// p/rho0; wcsph keeps p/rho^2.
-  double pressure_of(std::size_t i, double density) const {
-    if (terms_.pressure == Pressure::dfsph) return static_cast<double>(state_[i].pressure_term);
-    if (terms_.pressure == Pressure::mueller) return static_cast<double>(pressure_[i]);
-    return static_cast<double>(sorted_[i].pressure_term) * density * density;
-  }
+  Fields do_fields() override { return particles_.fields(static_cast<std::size_t>(sort_.cell_start()[p_.cell_count])); }
 
   static constexpr bool k_delivers_in_place = std::is_same_v<Scalar, float>;
   struct Position {
@@ -363,16 +263,9 @@ class OmpSolver final : public Solver {
   std::vector<NeighbourList<Scalar>> lists_;  ///< per thread
   PressureSolve<Scalar> solve_;               ///< of dfsph
   std::vector<PassResult<Scalar>> results_;   ///< per thread
-  std::size_t count_ = 0;
+  ParticleArrays<Scalar> particles_;
   std::int64_t lost_ = 0;
-  TeamArray<Record<Scalar>> state_, sorted_;  ///< between sub-steps; within one, in canonical order
-  TeamArray<std::uint32_t> ids_[2];           ///< take turns: the sort reads one and writes the other
-  std::size_t ids_now_ = 0;                   ///< which of the two belongs to state_
-  TeamArray<Scalar> x_, y_, z_;               ///< coordinates of sorted_
-  TeamArray<Position> rounded_;               ///< what is delivered of state_, if that is in double precision
-  TeamArray<int> keys_;                       ///< of state_
-  TeamArray<Scalar> density_, pressure_, isolation_;
-  TeamArray<int> neighbours_;  ///< of sorted_, when last counted
+  TeamArray<Position> rounded_;  ///< what is delivered of particles_.state, if that is in double precision
 };
 
 }  // namespace
@@ -380,16 +273,6 @@ class OmpSolver final : public Solver {
 std::unique_ptr<Solver> make_solver(const Scene& scene, const Settings& settings) {
   if (settings.precision == Precision::single_precision) return std::make_unique<OmpSolver<float>>(scene, settings);
   return std::make_unique<OmpSolver<double>>(scene, settings);
-}
-
-std::vector<DeviceInfo> devices() {
-  DeviceInfo device;
-  device.backend = "omp";
-  device.name = processor_name();
-  device.kind = "cpu";
-  device.compute_units = static_cast<int>(std::thread::hardware_concurrency());
-  device.version = std::string("up to ") + to_string(available_simd().back());
-  return {device};
 }
 
 }  // namespace squall::openmp
