@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/device_choice.h"
 #include "app/plans.h"
 #include "core/errors.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/device_choice.h"
 #include "app/plans.h"
 #include "app/table.h"
 #include "app/terminal.h"

@@ -8,6 +8,7 @@
 #include "app/agree_plans.h"
 #include "app/agree_text.h"
 #include "app/commands.h"
+#include "app/device_choice.h"
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
 #include "app/notes.h"

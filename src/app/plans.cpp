@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "app/device_choice.h"
 #include "app/exit_codes.h"
 #include "core/errors.h"
 
@@ -13,55 +13,6 @@ namespace squall::app {
 namespace {
 
 using harness::RunPlan;
-
-const BackendInfo& find_backend(const std::vector<BackendInfo>& backends, const std::string& name) {
-  const auto found =
-      std::find_if(backends.begin(), backends.end(), [&](const BackendInfo& info) { return info.name == name; });
-  if (found == backends.end()) throw DeviceError("backend '" + name + "' is unknown to this build");
-  return *found;
-}
-
-/// Why nothing of a backend can run; empty if something can.
-std::string problem_of(const BackendInfo& backend) {
-  if (!backend.problem.empty()) return backend.problem;
-  std::string problems;
-  for (const auto& device : backend.devices) {
-    if (device.problem.empty()) return "";
-    problems += fmt::format("{}{} {}: {}", problems.empty() ? "" : "; ", device.index, device.name, device.problem);
-  }
-  return problems.empty() ? "no device" : problems;
-}
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool is_index(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-/// Devices with this index or part of the name; all for an empty text. Throws DeviceError if there is none.
-std::vector<DeviceInfo> select_devices(const BackendInfo& backend, const std::string& text) {
-  std::vector<DeviceInfo> selected;
-  std::string names;
-  for (const auto& device : backend.devices) {
-    const bool matches = is_index(text) ? std::to_string(device.index) == text
-                                        : lower(device.name).find(lower(text)) != std::string::npos;
-    if (matches) selected.push_back(device);
-    names += fmt::format("{}{} {}", names.empty() ? "" : ", ", device.index, device.name);
-  }
-  if (selected.empty())
-    throw DeviceError(
-        fmt::format("{} has no device '{}'; it has {}", backend.name, text, names.empty() ? "none" : names));
-  return selected;
-}
-
-/// As asked for; else reference is the yardstick in double, and the others are fast.
-Precision precision_of(const Options& options, const std::string& backend) {
-  return options.precision.value_or(backend == "reference" ? Precision::double_precision : Precision::single_precision);
-}
 
 RunPlan base_plan(const Options& options, const Workload& workload, const std::string& backend) {
   RunPlan plan;
@@ -86,18 +37,6 @@ void name_plan(RunPlan& plan) {
   if (plan.backend == "opencl") plan.label += fmt::format(" {}, {}", settings.device, to_string(settings.readback));
   plan.label += threads_text(settings.threads);
   if (plan.backend != "reference" && !single) plan.label += ", double";
-}
-
-/// Why a device cannot run in a precision; empty if it can.
-std::string problem_in(const DeviceInfo& device, Precision precision) {
-  if (!device.problem.empty()) return device.problem;
-  if (precision == Precision::single_precision || device.has_double) return "";
-  return "it does not compute in double precision (OpenCL: it lacks the extension cl_khr_fp64)";
-}
-
-/// Whether runs on it must give the bits of the others.
-bool promises_bits(const DeviceInfo& device, Precision precision) {
-  return precision == Precision::single_precision ? device.bitwise : device.has_double;
 }
 
 std::string default_backend(const Options& options, const std::vector<BackendInfo>& backends) {
@@ -240,68 +179,6 @@ Plans plan_sweep(const Options& options, const Workload& workload, const std::ve
   return plans;
 }
 
-namespace {
-
-/// Why a backend does not have a pressure solver; empty if it does. Asked by trying, so that nothing here needs to
-/// know.
-std::string refusal_of(const std::string& backend, const Settings& settings) {
-  Scene scene;
-  scene.name = "probe";
-  scene.time.duration_s = 1.0;
-  scene.fluid.spacing_m = 0.1;
-  scene.container.max_m = {0.4, 0.4, 0.4};
-  try {
-    make_solver(backend, scene, settings);
-  } catch (const InputError& refusal) {
-    return refusal.what();
-  }
-  return "";
-}
-
-RunPlan validation_plan(const Options& options, Pressure pressure, const BackendInfo& backend) {
-  RunPlan plan;
-  plan.backend = backend.name;
-  plan.settings.pressure = pressure;
-  plan.settings.seed = options.seed;
-  plan.settings.precision = precision_of(options, backend.name);
-  if (backend.name != "reference" && options.simd) plan.settings.simd = *options.simd;
-  if (backend.name != "reference" && !options.threads.empty()) plan.settings.threads = options.threads.front();
-  if (backend.name == "opencl") {
-    const DeviceInfo device = select_devices(backend, options.device).front();
-    if (const auto problem = problem_in(device, plan.settings.precision); !problem.empty())
-      throw DeviceError(device.name + " cannot run: " + problem);
-    plan.settings.device = std::to_string(device.index);
-  }
-  plan.label = plan.backend;
-  return plan;
-}
-
-}  // namespace
-
-Plans plan_validation(const Options& options, Pressure pressure, const std::vector<BackendInfo>& backends) {
-  Plans result;
-  const bool by_name = !options.backends.empty() || !options.device.empty();
-  std::vector<std::string> names = options.backends;
-  if (names.empty())
-    names = by_name ? std::vector<std::string>{"opencl"} : std::vector<std::string>{"omp", "opencl", "reference"};
-  for (const auto& name : names) {
-    const BackendInfo& backend = find_backend(backends, name);
-    const std::string problem = problem_of(backend);
-    if (!problem.empty() && by_name) throw DeviceError("backend " + name + " cannot run: " + problem);
-    if (!problem.empty()) continue;
-    RunPlan plan = validation_plan(options, pressure, backend);
-    const std::string refusal = refusal_of(name, plan.settings);
-    if (!refusal.empty()) {
-      if (by_name)
-        result.left_out.push_back(fmt::format("{} on {} is left out: {}", to_string(pressure), name, refusal));
-      continue;
-    }
-    result.plans.push_back(std::move(plan));
-    if (!by_name) return result;
-  }
-  return result;
-}
-
 Plans plan_stress(const Options& options, const std::vector<BackendInfo>& backends) {
   Options one_each = options;
   one_each.readbacks = {Readback::mapped};
@@ -323,13 +200,6 @@ Plans plan_stress(const Options& options, const std::vector<BackendInfo>& backen
     }
   }
   return plans;
-}
-
-const DeviceInfo& device_of(const RunPlan& plan, const std::vector<BackendInfo>& backends) {
-  const BackendInfo& backend = find_backend(backends, plan.backend);
-  for (const auto& device : backend.devices)
-    if (plan.backend != "opencl" || std::to_string(device.index) == plan.settings.device) return device;
-  throw DeviceError("backend " + plan.backend + " has no device " + plan.settings.device);
 }
 
 }  // namespace squall::app

@@ -38,7 +38,4 @@ Plans plan_validation(const Options& options, Pressure pressure, const std::vect
 /// every pressure solver that it has, or the one asked for. Throws like plan_run.
 Plans plan_stress(const Options& options, const std::vector<BackendInfo>& backends);
 
-/// The device that a plan runs on.
-const DeviceInfo& device_of(const harness::RunPlan& plan, const std::vector<BackendInfo>& backends);
-
 }  // namespace squall::app

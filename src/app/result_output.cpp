@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "app/device_choice.h"
 #include "app/exit_codes.h"
 #include "app/plans.h"
 #include "core/errors.h"

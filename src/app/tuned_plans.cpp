@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/device_choice.h"
 #include "app/notes.h"
 #include "app/plans.h"
 #include "app/tuning_table.h"
