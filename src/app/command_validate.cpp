@@ -21,6 +21,7 @@
 #include "app/validation_text.h"
 #include "core/errors.h"
 #include "core/nearest_name.h"
+#include "core/time_step.h"
 #include "harness/report/gnuplot.h"
 #include "harness/validation/results.h"
 
@@ -75,13 +76,25 @@ void add_jobs(const Options& options, harness::Case what, const std::vector<Back
   if (options.particles && options.cases.empty() && !what.scene.particle_files.empty())
     note_once(jobs.notes, what.name + " has its particles from a file and runs as written, whatever --particles says");
   for (const auto& note : ratio_notes(what.scene)) note_once(jobs.notes, what.name + ": " + note);
+  const std::size_t jobs_before = jobs.jobs.size();
+  std::string refusal;
   for (const Pressure pressure : what.solvers) {
     const auto& asked = options.pressures;
     if (!asked.empty() && std::find(asked.begin(), asked.end(), pressure) == asked.end()) continue;
     const Plans plans = plan_validation(options, pressure, backends);
     for (const auto& reason : plans.left_out) note_once(jobs.notes, reason);
-    for (const auto& plan : plans.plans) jobs.jobs.push_back({index, plan, scene_for(options, what, plan.backend)});
+    for (const auto& plan : plans.plans) {
+      Scene scene = scene_for(options, what, plan.backend);
+      const std::string problem = step_problem(scene, pressure);
+      if (problem.empty()) {
+        jobs.jobs.push_back({index, plan, std::move(scene)});
+        continue;
+      }
+      refusal = fmt::format("{}: {} is left out: {}", what.name, to_string(pressure), problem);
+      note_once(jobs.notes, refusal);
+    }
   }
+  if (!refusal.empty() && jobs.jobs.size() == jobs_before) throw InputError(refusal);
   jobs.results.push_back({std::move(what), {}});
 }
 

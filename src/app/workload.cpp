@@ -6,8 +6,18 @@
 
 #include "app/terminal.h"
 #include "core/errors.h"
+#include "core/time_step.h"
 
 namespace squall::app {
+
+namespace {
+
+/// Of other spacings, solvers or steps: each of them is refused or not, whatever is to be said of the scene itself.
+bool runs_other_scenes(Command command) {
+  return command == Command::sweep || command == Command::agree || command == Command::study;
+}
+
+}  // namespace
 
 Workload load_workload(const Options& options) {
   Workload workload;
@@ -19,6 +29,8 @@ Workload load_workload(const Options& options) {
   workload.pressure = options.pressure ? *options.pressure : scene.solver.pressure.value_or(Settings{}.pressure);
   if (const std::string problem = ratio_problem(scene, workload.pressure); !problem.empty())
     throw InputError(options.scene + ": " + problem);  // before anything is written
+  const std::string problem = runs_other_scenes(options.command) ? "" : step_problem(scene, workload.pressure);
+  if (!problem.empty()) throw InputError(options.scene + ": " + problem);
   workload.info = {scene.name, scene_hash(scene), particle_capacity(scene)};
   // Stored scenes must find their particle files from any folder.
   const auto folder = std::filesystem::absolute(options.scene).parent_path();

@@ -46,34 +46,10 @@ int substep_count(const Scene& scene, Pressure pressure, const Clock& clock, dou
   double acceleration = largest_gravity(scene, begin, length);
   // Impacts on water that cannot give way make accelerations that last a sub-step: they say nothing about a frame.
   if (pressure != Pressure::dfsph) acceleration = std::max(acceleration, clock.max_acceleration);
-  const double wanted = std::ceil(length / time_step_limit(scene, pressure, speed + length * acceleration) - 1e-9);
+  const double wanted = substeps_needed(scene, pressure, speed + length * acceleration);
   limited = !(wanted <= k_max_substeps);
   const int needed = limited ? k_max_substeps : std::max(1, static_cast<int>(wanted));
   return std::max(needed, clock.previous_substeps - std::max(1, clock.previous_substeps / 10));
-}
-
-/// Explicit viscosity is stable for dt < 2/lambda_max; on a lattice at H = 2dx lambda_max is 15.8 nu/H^2 for Müller's
-/// Laplacian and 58.9 nu/H^2 for the central form of wcsph and dfsph, whose force along the line of centres is five
-/// times as stiff (docs/physics.md). A tenth is left for other arrangements.
-double viscous_factor(Pressure pressure) { return pressure == Pressure::mueller ? 0.1 : 0.03; }
-
-/// Physical viscosity and what artificial viscosity amounts to: alpha (H/2) c/(2(d + 2)), d = 3 [m^2/s].
-double effective_viscosity(const Scene& scene, Pressure pressure) {
-  const double physical = scene.fluid.viscosity_m2_s.value_or(0.0);
-  if (pressure != Pressure::wcsph) return physical;
-  return physical + scene.solver.artificial_viscosity * 0.5 * scene.support_radius() * scene.speed_of_sound() / 10.0;
-}
-
-/// dfsph has no sound to resolve, and a bound of speeds beyond what they turn out to be: with steps longer by this
-/// factor errors are the same (docs/dfsph.md).
-constexpr double k_spacings_per_cfl = 1.5;
-
-/// Largest time step [s] that sound or, where there is none, motion alone allows.
-double courant_limit(const Scene& scene, Pressure pressure, double speed_bound) {
-  const double cfl = scene.solver.cfl;
-  if (pressure == Pressure::dfsph) return k_spacings_per_cfl * cfl * scene.fluid.spacing_m / speed_bound;
-  const double signal = pressure == Pressure::wcsph ? scene.speed_of_sound() : std::sqrt(scene.solver.stiffness_m2_s2);
-  return cfl * scene.support_radius() / (signal + 1.2 * speed_bound);
 }
 
 constexpr double k_relaxation = 0.5;  ///< of dfsph's Jacobi iterations (docs/dfsph.md)
@@ -89,21 +65,6 @@ void set_pressure_solve(const Scene& scene, bool walls_vanish, Substep<double>& 
 }
 
 }  // namespace
-
-double smoothing_viscosity(const Scene& scene, Pressure pressure) {
-  if (pressure != Pressure::dfsph) return 0.0;
-  // eps <r^2>/(6 dt) per application with eps = xsph dt/dt_max; <r^2> = 42/187 H^2 for the bell kernel.
-  const double support = scene.support_radius();
-  return 7.0 / 187.0 * scene.solver.xsph * support * support / scene.solver.dt_max_s;
-}
-
-double time_step_limit(const Scene& scene, Pressure pressure, double speed_bound) {
-  const double support = scene.support_radius();
-  double limit = std::min(scene.solver.dt_max_s, courant_limit(scene, pressure, speed_bound));
-  const double viscosity = effective_viscosity(scene, pressure);
-  if (viscosity > 0.0) limit = std::min(limit, viscous_factor(pressure) * support * support / viscosity);
-  return limit;
-}
 
 FramePlan plan_frame(const Scene& scene, const Settings& settings, const Clock& clock) {
   FramePlan plan;

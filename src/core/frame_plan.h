@@ -6,6 +6,7 @@
 #include "core/particles.h"
 #include "core/scene.h"
 #include "core/settings.h"
+#include "core/time_step.h"
 #include "params.h"
 
 namespace squall {
@@ -34,17 +35,9 @@ struct Clock {
   double max_acceleration_so_far = 0.0;  ///< m/s^2, in those
 };
 
-inline constexpr int k_max_substeps = 1000;  ///< per frame
-
 /// Plans the frame that follows `clock`. n sub-steps of equal dt = T/n from v_bound = v_max + T a_max
 /// (docs/physics.md); n falls by at most 10 % (or one) per frame.
 FramePlan plan_frame(const Scene& scene, const Settings& settings, const Clock& clock);
-
-/// Largest time step [s] at a speed bound [m/s]: CFL, viscosity and dt_max.
-double time_step_limit(const Scene& scene, Pressure pressure, double speed_bound);
-
-/// Viscosity [m^2/s] that dfsph's velocity smoothing ([solver] xsph) amounts to, whatever the time step.
-double smoothing_viscosity(const Scene& scene, Pressure pressure);
 
 /// Velocity [m/s] and displacement [m] of the container at a time [s] from the start.
 Eigen::Vector3d container_velocity(const Scene& scene, double time_s);

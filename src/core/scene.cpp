@@ -4,17 +4,14 @@
 #include <cmath>
 
 namespace squall {
-namespace {
 
-double fastest_start(const Scene& scene) {
+double Scene::fastest_start() const {
   double speed = 0.0;
-  for (const Scene::Block& block : scene.blocks) speed = std::max(speed, block.velocity_m_s.norm());
-  for (const Scene::ParticleFile& particle_file : scene.particle_files)
+  for (const Block& block : blocks) speed = std::max(speed, block.velocity_m_s.norm());
+  for (const ParticleFile& particle_file : particle_files)
     for (const Eigen::Vector3d& velocity : particle_file.particles.velocities) speed = std::max(speed, velocity.norm());
   return speed;
 }
-
-}  // namespace
 
 double Scene::fluid_depth() const {
   if (blocks.empty()) return container_size().y();
@@ -25,7 +22,7 @@ double Scene::fluid_depth() const {
 
 double Scene::reached_speed() const {
   double reached = std::sqrt(gravity_m_s2.norm() * fluid_depth());
-  if (reached == 0.0) reached = fastest_start(*this);
+  if (reached == 0.0) reached = fastest_start();
   return reached == 0.0 ? 1.0 : reached;
 }
 

@@ -90,6 +90,7 @@ Solver::Solver(Scene scene, Settings settings) : scene_(std::move(scene)), setti
                      to_string(settings_.pressure) + "; remove it or write 0");
   if (const std::string problem = ratio_problem(scene_, settings_.pressure); !problem.empty())
     throw InputError(problem);
+  if (const std::string problem = step_problem(scene_, settings_.pressure); !problem.empty()) throw InputError(problem);
   params_ = make_params(scene_, settings_.pressure);
   boxes_ = make_boxes(scene_, settings_.pressure);
   held_groups_ = make_held_groups(scene_);
@@ -204,7 +205,8 @@ void Solver::finish_report(const FramePlan& plan) {
     report_.light_passes =
         2 * (report_.density_iterations + report_.divergence_iterations - static_cast<std::int64_t>(report_.substeps));
   report_.smoothing_viscosity = smoothing_viscosity(scene_, settings_.pressure);
-  report_.time_step_limited = plan.limited && plan.dt > time_step_limit(scene_, settings_.pressure, report_.max_speed);
+  report_.time_step_limited =
+      plan.limited && !(substeps_needed(scene_, settings_.pressure, report_.max_speed) <= k_max_substeps);
   report_.container_displacement =
       container_displacement(scene_, static_cast<double>(plan.frame + 1) / scene_.time.frame_rate_hz);
 }

@@ -32,12 +32,10 @@ std::string check_delivery(const Delivered& delivered, const State& state, const
   return delivered.problem(state.particles);
 }
 
-std::string too_fast(const FrameReport& report, double frame_rate_hz) {
-  return fmt::format(
-      "unstable after frame {}: {} sub-steps of {:.3g} s are too long at {:.3g} m/s; a frame of {:.3g} s would need "
-      "more "
-      "than {} sub-steps: raise frame_rate_hz or cfl, or lower speed_of_sound_m_s, viscosity_m2_s or the speeds",
-      report.frame, report.substeps, report.dt_s, report.max_speed, 1.0 / frame_rate_hz, k_max_substeps);
+std::string too_long(const FrameReport& report, const Scene& scene, Pressure pressure) {
+  return fmt::format("unstable after frame {}: {} sub-steps of {:.3g} s are too long; {}", report.frame,
+                     report.substeps, report.dt_s,
+                     step_problem(scene, pressure, report.max_speed, "water with a speed"));
 }
 
 void check_plan(const RunPlan& plan) {
@@ -127,7 +125,7 @@ void Run::check_end_state(const FrameReport& report) {
   if (!is_finite(state_.particles))
     error_ = fmt::format("a position or velocity is not finite {}", after);
   else if (report.time_step_limited)
-    error_ = too_fast(report, scene().time.frame_rate_hz);
+    error_ = too_long(report, scene(), plan_.settings.pressure);
   else if (report.lost > 0)
     error_ = fmt::format("{} of {} particles are lost {}", report.lost, count, after);
   else if (report.particles != count)

@@ -16,6 +16,21 @@
 
 namespace squall::app {
 
+/// So viscous that no pressure solver has room for the sub-steps at 64 particles, and all have at 8.
+inline constexpr const char* k_pitch = R"(schema = 1
+[time]
+duration_s = 1.0
+[fluid]
+spacing_m = 0.05
+viscosity_m2_s = 65
+[container]
+min_m = [0.0, 0.0, 0.0]
+max_m = [0.4, 0.4, 0.4]
+[[block]]
+min_m = [0.0, 0.0, 0.0]
+max_m = [0.2, 0.2, 0.2]
+)";
+
 /// A folder that goes away with its object.
 class TemporaryFolder {
  public:

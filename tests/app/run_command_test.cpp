@@ -164,6 +164,25 @@ TEST(RunCommand, SupportRatiosThatHarmAreSaid) {
   EXPECT_EQ(run_at("4", "wcsph").code, 0);
 }
 
+// What makes every run of a scene explode is refused before it starts, as the command line has it.
+TEST(RunCommand, StepsThatNoFrameHasRoomForAreRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "pitch.toml") << k_pitch;
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", folder / "pitch.toml", "--frames", "1", "--out", folder / "out"});
+    return squall(more);
+  };
+  for (const char* pressure : {"dfsph", "wcsph", "mueller"}) {
+    const Outcome refused = run({"--pressure", pressure});
+    EXPECT_EQ(refused.code, 3) << pressure;
+    EXPECT_NE(refused.err.find("pitch.toml: viscosity_m2_s = 65 needs"), std::string::npos) << refused.err;
+    EXPECT_EQ(run({"--pressure", pressure, "--dt-max", "1e-4"}).code, 3) << "dt_max is not what binds";
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  const Outcome coarse = run({"--particles", "8"});
+  EXPECT_EQ(coarse.code, 0) << "as the command line has it: " << coarse.err;
+}
+
 TEST(RunCommand, ADeviceIsNoScene) {
   const Outcome outcome = squall({"run", "/dev/zero"});
   EXPECT_EQ(outcome.code, 3);

@@ -127,6 +127,21 @@ TEST(SweepCommand, WhatCannotBeSweptIsRefused) {
     EXPECT_EQ(squall(with({"sweep", k_tiny, "--frames", "1"}, more)).code, 2) << more.front();
 }
 
+// A size whose time steps are too short to be taken is refused when it comes; what came before stays.
+TEST(SweepCommand, SizesThatNoFrameHasRoomForEndIt) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "pitch.toml") << k_pitch;
+  const auto sweep = [&](const std::string& sizes) {
+    return squall({"sweep", folder / "pitch.toml", "--backend", "omp", "--threads", "1", "--frames", "1", "--particles",
+                   sizes, "--json", folder / "sweep.json"});
+  };
+  const Outcome second = sweep("8,64");
+  EXPECT_EQ(second.code, 3) << second.err;
+  EXPECT_NE(second.err.find("ended before 64 particles: viscosity_m2_s = 65 needs"), std::string::npos) << second.err;
+  EXPECT_EQ(json::parse(text_of(folder / "sweep.json"))["points"].size(), 1u);
+  EXPECT_EQ(sweep("64").code, 3);
+}
+
 TEST(SweepCommand, ADeviceAskedForThatIsNotThereEndsIt) {
   const Environment no_opencl{{"OCL_ICD_VENDORS", "/no/such/folder"}, {"OCL_ICD_FILENAMES", ""}};
   EXPECT_EQ(squall({"sweep", k_tiny, "--backend", "opencl", "--particles", "70"}, no_opencl).code, 4);

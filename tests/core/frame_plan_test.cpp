@@ -32,34 +32,6 @@ std::vector<FramePlan> plan_frames(const Scene& scene, int frames, const Setting
   return plans;
 }
 
-TEST(TimeStepLimit, IsTheSmallestOfItsTerms) {
-  Scene scene = empty_tank();  // H = 0.1 m
-  scene.solver.dt_max_s = 1;
-  scene.solver.speed_of_sound_m_s = 20;
-  scene.solver.stiffness_m2_s2 = 400;
-  const double tolerance = rounding<double>(16);
-  EXPECT_NEAR(time_step_limit(scene, Pressure::wcsph, 0), 0.4 * 0.1 / 20, tolerance);
-  EXPECT_NEAR(time_step_limit(scene, Pressure::wcsph, 5), 0.4 * 0.1 / (20 + 6), tolerance);
-  EXPECT_NEAR(time_step_limit(scene, Pressure::mueller, 5), 0.4 * 0.1 / (20 + 6), tolerance);
-  scene.fluid.viscosity_m2_s = 10;
-  EXPECT_NEAR(time_step_limit(scene, Pressure::mueller, 0), 0.1 * 0.01 / 10, tolerance);
-  // The central form of wcsph is stiffer, and artificial viscosity adds 0.1 x 0.05 m x 20 m/s / 10.
-  EXPECT_NEAR(time_step_limit(scene, Pressure::wcsph, 0), 0.03 * 0.01 / (10 + 0.01), tolerance);
-  scene.fluid.viscosity_m2_s.reset();
-  scene.solver.dt_max_s = 1e-3;
-  EXPECT_EQ(time_step_limit(scene, Pressure::wcsph, 0), 1e-3);
-}
-
-TEST(TimeStepLimit, OfDfsphIsMotionAlone) {
-  Scene scene = empty_tank();  // dx = 0.05 m, 1e-3 m^2/s
-  scene.solver.dt_max_s = 1;
-  const double tolerance = rounding<double>(16);
-  EXPECT_NEAR(time_step_limit(scene, Pressure::dfsph, 5), 1.5 * 0.4 * 0.05 / 5, tolerance);
-  EXPECT_NEAR(time_step_limit(scene, Pressure::dfsph, 0), 0.03 * 0.01 / 1e-3, tolerance);
-  scene.fluid.viscosity_m2_s.reset();
-  EXPECT_EQ(time_step_limit(scene, Pressure::dfsph, 0), 1);
-}
-
 // An impact that stops water within a sub-step is no acceleration that goes on for a frame.
 TEST(FramePlan, DfsphIsPlannedByGravityNotByImpacts) {
   Settings settings;

@@ -81,13 +81,19 @@ TEST(Run, WrongPositionsMakeAnErrorRow) {
 TEST(Run, ATimeStepThatIsTooLongSaysWhatToChange) {
   RunPlan plan = short_plan("fake");
   plan.warm_up_frames = 0;
+  plan.settings.pressure = Pressure::wcsph;
   Faults faults;
   faults.hurries_from = 0;
   faults.loses_at = 1;
   const Row row = run_once(make_fake(plan, faults), plan);
   EXPECT_NE(row.error.find("unstable after frame 1: 1000 sub-steps of 0.0001 s"), std::string::npos) << row.error;
   EXPECT_NE(row.error.find("1e+06 m/s"), std::string::npos) << row.error;
-  EXPECT_NE(row.error.find("raise frame_rate_hz or cfl"), std::string::npos) << row.error;
+  EXPECT_NE(row.error.find("lower that speed or speed_of_sound_m_s"), std::string::npos) << row.error;
+  plan.settings.pressure = Pressure::dfsph;
+  const std::string dfsph = run_once(make_fake(plan, faults), plan).error;
+  EXPECT_NE(dfsph.find("lower that speed, or raise spacing_m or frame_rate_hz"), std::string::npos) << dfsph;
+  EXPECT_EQ(dfsph.find("sound"), std::string::npos) << "dfsph has none: " << dfsph;
+  EXPECT_EQ(dfsph.find("viscosity"), std::string::npos) << "which is not to blame: " << dfsph;
 }
 
 TEST(Run, AFailureInARewoundWarmUpLeavesItsFrames) {

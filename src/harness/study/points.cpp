@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/time_step.h"
 #include "harness/report/plain_text.h"
 
 namespace squall::harness {
@@ -123,6 +124,8 @@ class PointMaker {
     } catch (const InputError& refusal) {
       return note(point.name + " is left out: " + refusal.what());
     }
+    if (const auto problem = step_problem(point.run.scene, of.pressure); !problem.empty())
+      return note(point.name + " is left out: " + problem);
     result_.points.push_back(std::move(point));
   }
 
@@ -199,6 +202,7 @@ StudyRun reference_run(const StudySubjects& subjects, const StudyPoints& points,
   run.plan.frames *= run.every;
   run.plan.label = of.name + ", reference";
   validate(run.scene);
+  if (const auto problem = step_problem(run.scene, of.pressure); !problem.empty()) throw InputError(problem);
   return run;
 }
 
@@ -206,6 +210,7 @@ std::vector<StudyRun> noise_runs(const StudySubjects& subjects, const StudyPoint
   const StudyModel& of = points.models[model];
   std::vector<StudyRun> runs;
   if (initial_particles(of.scene).size() == 0 || subjects.ranges.perturbed < 1) return runs;
+  if (!step_problem(of.scene, of.pressure).empty()) return runs;
   for (int number = 0; number <= subjects.ranges.perturbed; ++number) {
     StudyRun run;
     run.plan = subjects.double_plan;

@@ -37,6 +37,9 @@ class Student {
     if (subjects_.pressures.empty() || subjects_.plans.empty())
       throw InputError("a study needs a pressure solver and a backend to begin with");
     result_.points = make_points(subjects_);
+    if (result_.points.points.empty())
+      throw InputError(result_.points.notes.empty() ? "the study has no points; vary something it can"
+                                                    : result_.points.notes.front());
     result_.records.resize(result_.points.points.size());
     result_.models.resize(result_.points.models.size());
     for (std::size_t m = 0; m < result_.models.size(); ++m)

@@ -89,6 +89,18 @@ TEST(StudyPoints, SmoothingStaysTheSameViscosity) {
   EXPECT_NEAR(smoothing_viscosity(reference.scene, Pressure::dfsph), viscosity, rounding);
 }
 
+// Steps finer than a frame has room for are left out with the reason, and so is what stands beside them.
+TEST(StudyPoints, WhatNoFrameHasRoomForIsLeftOut) {
+  StudySubjects subjects = small_study(Pressure::dfsph, {StudyAxis::step});
+  subjects.scene.fluid.viscosity_m2_s = 1e9;
+  const StudyPoints points = make_points(subjects);
+  EXPECT_TRUE(points.points.empty());
+  ASSERT_FALSE(points.notes.empty());
+  EXPECT_NE(points.notes[0].find("left out: viscosity_m2_s"), std::string::npos) << points.notes[0];
+  for (std::size_t model = 0; model < points.models.size(); ++model)
+    EXPECT_TRUE(noise_runs(subjects, points, model).empty());
+}
+
 TEST(StudyPoints, WithoutParticlesAtTheStartNothingIsPerturbed) {
   StudySubjects subjects = small_study(Pressure::wcsph, {});
   EXPECT_EQ(noise_runs(subjects, make_points(subjects), 0).size(), 3u);
