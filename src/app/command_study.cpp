@@ -16,6 +16,7 @@
 #include "app/study_text.h"
 #include "app/targets.h"
 #include "harness/report/gnuplot.h"
+#include "harness/study/gaps.h"
 
 namespace squall::app {
 
@@ -59,6 +60,7 @@ void add_notes(harness::StudyResult& result) {
   if (result.runs.reused > 0)
     notes.push_back(fmt::format("{} runs were there from an earlier start; remove runs.jsonl to time them again",
                                 result.runs.reused));
+  notes.insert(notes.end(), result.findings.gaps.begin(), result.findings.gaps.end());
   for (std::size_t m = 0; m < result.runs.models.size(); ++m)
     if (const auto& problem = result.runs.models[m].problem; !problem.empty())
       notes.push_back(fmt::format("no reference of {}: {}", result.runs.points.models[m].name, problem));
@@ -75,6 +77,11 @@ int exit_code(const harness::StudyResult& result) {
   };
   if (any(harness::PointStatus::failed)) return k_exit_device;
   if (!any(harness::PointStatus::fine)) return k_exit_unstable;
+  if (result.findings.front.empty()) {
+    // Without a single reference the fault is the water's; with one, the scene gives nothing to judge it by.
+    const bool lacks_reference = !result.findings.yardstick && !harness::is_exact(result.question.error);
+    return lacks_reference ? k_exit_unstable : k_exit_input;
+  }
   return result.question.budget_ms && !result.findings.best ? k_exit_budget : k_exit_fine;
 }
 
@@ -101,6 +108,7 @@ int command_study(const Options& options) {
   result.scene = workload.info;
   result.subjects = std::move(plan.subjects);
   result.question = question_of(options);
+  harness::require_water(workload.scene, result.subjects.plans.front().frames);
   result.notes = std::move(plan.left_out);
   result.context = context_of(backends, rows_of(result.subjects));
   print_notes(result.notes, options.quiet);

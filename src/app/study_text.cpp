@@ -22,8 +22,9 @@ std::string reasons(const harness::StudyResult& result) {
   for (std::size_t i = 0; i < result.findings.points.size(); ++i) {
     const auto& point = result.findings.points[i];
     if (!point.reason.empty())
-      text +=
-          fmt::format("{}: {}: {}\n", red(to_string(point.status)), result.runs.points.points[i].name, point.reason);
+      text += fmt::format("{}: {}: {}\n",
+                          point.status == harness::PointStatus::fine ? "not ranked" : red(to_string(point.status)),
+                          result.runs.points.points[i].name, point.reason);
   }
   return text.empty() ? "" : "\n" + text;
 }

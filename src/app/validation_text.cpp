@@ -67,8 +67,9 @@ std::string validation_list() {
     const harness::Case entry = builtin_case(name);
     cases.add({name, entry.title, entry.source});
   }
-  Table quantities({"quantity", "unit", "meaning"}, true);
-  for (const auto& quantity : harness::quantities()) quantities.add({quantity.name, quantity.unit, quantity.meaning});
+  Table quantities({"quantity", "unit", "meaning", "needs"}, true);
+  for (const auto& quantity : harness::quantities())
+    quantities.add({quantity.name, quantity.unit, quantity.meaning, quantity.needs});
   Table formulas({"formula", "meaning", "parameters"}, true);
   formulas.add({"start", "the first measured value from from_s on: what should not change", ""});
   for (const auto& formula : harness::formulas())

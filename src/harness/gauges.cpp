@@ -23,14 +23,15 @@ double weight(const WaterPoint& point, const Eigen::Vector3d& at, double support
 
 /// Kernel-weighted mean (Shepard) of value(point); NaN without a point within H.
 template <class Value>
-double mean_at(const std::vector<WaterPoint>& points, const Eigen::Vector3d& at, double support, Value value) {
+GaugeReading mean_at(const std::vector<WaterPoint>& points, const Eigen::Vector3d& at, double support, Value value) {
   double sum = 0.0, weights = 0.0;
   for (const auto& point : points) {
     const double w = weight(point, at, support);
     sum += w * value(point);
     weights += w;
   }
-  return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
+  if (weights > 0.0) return {sum / weights, true};
+  return {std::numeric_limits<double>::quiet_NaN(), false};
 }
 
 /// Positions joined to the first ones by steps shorter than H; the first ones lie less than H above `base`.
@@ -83,8 +84,14 @@ bool Gauges::has_pressure() const {
 }
 
 std::vector<double> Gauges::read(const State& state) const {
-  const auto points = field_.around(state, places_, scene_.support_radius());
   std::vector<double> values;
+  for (const auto& reading : readings(state)) values.push_back(reading.value);
+  return values;
+}
+
+std::vector<GaugeReading> Gauges::readings(const State& state) const {
+  const auto points = field_.around(state, places_, scene_.support_radius());
+  std::vector<GaugeReading> values;
   for (const auto& gauge : scene_.gauges) {
     const Eigen::Vector3d at = gauge.position_m - scene_.container.min_m;
     if (gauge.kind == "level") values.push_back(level(state, at));
@@ -97,7 +104,7 @@ std::vector<double> Gauges::read(const State& state) const {
   return values;
 }
 
-double Gauges::level(const State& state, const Eigen::Vector3d& at) const {
+GaugeReading Gauges::level(const State& state, const Eigen::Vector3d& at) const {
   const double time_s = time_of(scene_, state), support = scene_.support_radius();
   const Present present(scene_, time_s);
   const double base = base_under(scene_, time_s, at);
@@ -108,19 +115,23 @@ double Gauges::level(const State& state, const Eigen::Vector3d& at) const {
     if (across < support && x.y() >= base && present.is_free(state.particles, i)) column.push_back(x);
   }
   const double top = top_of_connected(std::move(column), base, support);
-  return top > base ? top + 0.5 * scene_.fluid.spacing_m : base;
+  if (top > base) return {top + 0.5 * scene_.fluid.spacing_m, true};
+  return {base, false};
 }
 
-double Gauges::pressure(const State& state, const std::vector<WaterPoint>& points, const Eigen::Vector3d& at) const {
+GaugeReading Gauges::pressure(const State& state, const std::vector<WaterPoint>& points,
+                              const Eigen::Vector3d& at) const {
   Face face;
   if (nearest_face(time_of(scene_, state), at, face)) return wall_pressure(face, points, at);
-  const double mean = mean_at(points, at, scene_.support_radius(), [](const auto& point) { return point.pressure_pa; });
-  return std::isnan(mean) ? 0.0 : mean;
+  const auto mean = mean_at(points, at, scene_.support_radius(), [](const auto& point) { return point.pressure_pa; });
+  return mean.in_water ? mean : GaugeReading{};
 }
 
-double Gauges::wall_pressure(const Face& face, const std::vector<WaterPoint>& points, const Eigen::Vector3d& at) const {
+GaugeReading Gauges::wall_pressure(const Face& face, const std::vector<WaterPoint>& points,
+                                   const Eigen::Vector3d& at) const {
   const double dx = scene_.fluid.spacing_m;
   double area = 1.0, force = 0.0;
+  bool in_water = false;
   Eigen::Vector3d low = at, high = at;
   for (int axis = 0; axis < 3; ++axis) {
     if (axis == face.axis) continue;
@@ -133,9 +144,11 @@ double Gauges::wall_pressure(const Face& face, const std::vector<WaterPoint>& po
     inside = inside && face.sign * (point.position[face.axis] - face.plane) < scene_.support_radius();
     for (int axis = 0; axis < 3; ++axis)
       if (axis != face.axis) inside = inside && point.position[axis] >= low[axis] && point.position[axis] < high[axis];
-    if (inside) force += scene_.particle_mass() * face.sign * point.wall_acceleration[face.axis];
+    if (!inside) continue;
+    in_water = true;
+    force += scene_.particle_mass() * face.sign * point.wall_acceleration[face.axis];
   }
-  return force / area;
+  return {force / area, in_water};
 }
 
 bool Gauges::nearest_face(double time_s, const Eigen::Vector3d& at, Face& nearest) const {

@@ -19,6 +19,13 @@ struct GaugeColumn {
   bool is_pressure = false;
 };
 
+/// What a gauge shows, and whether it stands in water: where it does not, a level is what stands there, a pressure the
+/// air's, 0, and a velocity NaN.
+struct GaugeReading {
+  double value = 0.0;
+  bool in_water = false;
+};
+
 /// What a scene's gauges show of a state (docs/scenes.md, [[gauge]]).
 class Gauges {
  public:
@@ -27,7 +34,9 @@ class Gauges {
   const std::vector<GaugeColumn>& columns() const { return columns_; }
   bool has_pressure() const;
 
-  /// A value per column; NaN for a velocity where there is no water.
+  /// A reading per column.
+  std::vector<GaugeReading> readings(const State& state) const;
+  /// Their values alone.
   std::vector<double> read(const State& state) const;
 
  private:
@@ -39,9 +48,9 @@ class Gauges {
     Eigen::Vector3d low, high;  ///< m: its edges; the component along the normal means nothing
   };
 
-  double level(const State& state, const Eigen::Vector3d& at) const;
-  double pressure(const State& state, const std::vector<WaterPoint>& points, const Eigen::Vector3d& at) const;
-  double wall_pressure(const Face& face, const std::vector<WaterPoint>& points, const Eigen::Vector3d& at) const;
+  GaugeReading level(const State& state, const Eigen::Vector3d& at) const;
+  GaugeReading pressure(const State& state, const std::vector<WaterPoint>& points, const Eigen::Vector3d& at) const;
+  GaugeReading wall_pressure(const Face& face, const std::vector<WaterPoint>& points, const Eigen::Vector3d& at) const;
   bool nearest_face(double time_s, const Eigen::Vector3d& at, Face& nearest) const;
   std::vector<Face> faces(double time_s) const;
 

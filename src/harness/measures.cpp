@@ -21,7 +21,7 @@ double front_of(const std::vector<Eigen::Vector3d>& free, double spacing) {
   std::vector<double> low;
   for (const auto& x : free)
     if (x.y() < 2.0 * spacing) low.push_back(x.x());
-  return low.empty() ? 0.0 : quantile(std::move(low), 0.97) + 0.5 * spacing;
+  return low.empty() ? k_no_value : quantile(std::move(low), 0.97) + 0.5 * spacing;
 }
 
 /// Spray that has no neighbour is no water surface.
@@ -36,7 +36,7 @@ double height_of(const std::vector<Eigen::Vector3d>& free, double spacing, doubl
         std::count_if(free.begin(), free.end(), [&](const auto& x) { return (x - top).squaredNorm() < reach; });
     if (neighbours > 1) return top.y() + 0.5 * spacing;
   }
-  return 0.0;
+  return k_no_value;
 }
 
 }  // namespace
@@ -47,20 +47,21 @@ Observation observe(const Scene& scene, const Particles& particles, double time_
   const Present present(scene, time_s);
   std::vector<Eigen::Vector3d> free;
   double count = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const auto& x = particles.positions[i];
     const auto& v = particles.velocities[i];
     if (is_lost(x.x())) continue;
     count += 1.0;
-    result.centre_m += x;
+    sum += x;
     result.kinetic_j += energy_of(scene, Eigen::Vector3d::Zero(), v);
     result.potential_j += energy_of(scene, x, Eigen::Vector3d::Zero());
     if (!present.is_held(particles.ids[i])) free.push_back(x);
   }
-  if (count > 0.0) result.centre_m /= count;
+  if (count > 0.0) result.centre_m = sum / count;
   const double dx = scene.fluid.spacing_m;
   result.front_m = front_of(free, dx);
-  for (const auto& x : free) result.front_max_m = std::max(result.front_max_m, x.x() + 0.5 * dx);
+  for (const auto& x : free) result.front_max_m = std::fmax(result.front_max_m, x.x() + 0.5 * dx);  // of NaN and x: x
   result.height_m = height_of(free, dx, scene.support_radius());
   return result;
 }

@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <ostream>
 #include <vector>
@@ -38,8 +39,11 @@ void write_series_header(std::ostream& out) {
 }
 
 void write_observation(std::ostream& out, const Observation& o) {
-  fmt::print(out, "{},{},{},{},{},{},{},{},{}\n", o.time_s, o.front_m, o.front_max_m, o.height_m, o.centre_m.x(),
-             o.centre_m.y(), o.centre_m.z(), o.kinetic_j, o.potential_j);
+  fmt::print(out, "{}", o.time_s);
+  for (const double value : {o.front_m, o.front_max_m, o.height_m, o.centre_m.x(), o.centre_m.y(), o.centre_m.z(),
+                             o.kinetic_j, o.potential_j})
+    std::isnan(value) ? fmt::print(out, ",") : fmt::print(out, ",{}", value);
+  out << "\n";
 }
 
 void write_particles(std::ostream& out, const Scene& scene, const State& state) {

@@ -14,7 +14,7 @@ namespace squall::harness {
 void write_frames_header(std::ostream& out);
 void write_frame(std::ostream& out, const std::string& run, const FrameRecord& frame);
 
-/// series.csv: a line per frame of what the water did.
+/// series.csv: a line per frame of what the water did; a cell without a value is empty.
 void write_series_header(std::ostream& out);
 void write_observation(std::ostream& out, const Observation& observation);
 

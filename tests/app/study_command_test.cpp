@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -115,6 +117,43 @@ TEST(StudyCommand, ABudgetThatNothingKeepsIsExitSeven) {
   const Outcome outcome = squall(with(k_study, {"--budget-ms", "1e-6", "--json", "-"}));
   EXPECT_EQ(outcome.code, 7) << outcome.err;
   EXPECT_TRUE(json::parse(outcome.out)["recommendation"]["best_within_budget"].is_null());
+}
+
+/// A scene with this beside the box of k_dry.
+const std::string k_dry =
+    "schema = 1\n[time]\nduration_s = 1.0\n[fluid]\nspacing_m = 0.1\n[container]\nmin_m = [0, 0, 0]\n"
+    "max_m = [1, 9, 1]\nopen_top = true\n";
+
+TEST(StudyCommand, ASceneWithoutWaterIsRefusedBeforeAnythingIsMade) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "dry.toml") << k_dry;
+  std::ofstream(folder / "late.toml") << k_dry
+                                      << "[[rain]]\nparticles_per_s = 60\ndrop_diameter_mm = 2\narea_min_m = [0, 0]\n"
+                                         "area_max_m = [1, 1]\nheight_m = 9\nstart_s = 0.5\nmax_particles = 9\n";
+  for (const char* scene : {"dry.toml", "late.toml"}) {
+    const Outcome outcome =
+        squall({"study", folder / scene, "--backend", "omp", "--seconds", "0.3", "--out", folder / "out"});
+    EXPECT_EQ(outcome.code, 3) << outcome.out;
+    EXPECT_NE(outcome.err.find("x_cm_m, y_cm_m, front_m"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  }
+}
+
+TEST(StudyCommand, WithoutASingleErrorItDoesNotEndWell) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "high.toml") << k_dry << "[[block]]\nmin_m = [0, 8, 0]\nmax_m = [0.3, 8.3, 0.3]\n";
+  std::vector<std::string> arguments = k_study;
+  arguments[1] = folder / "high.toml";
+  const Outcome combined = squall(arguments);
+  EXPECT_EQ(combined.code, 0) << combined.err;
+  EXPECT_NE(combined.err.find("the combined error is of x_cm_m, y_cm_m, energy_j here"), std::string::npos)
+      << combined.err;
+  const Outcome front = squall(with(arguments, {"--error", "front_m", "--out", folder / "out"}));
+  EXPECT_EQ(front.code, 3) << front.out;
+  EXPECT_NE(front.err.find("front_m has no value at any output time"), std::string::npos) << front.err;
+  EXPECT_NE(front.out.find("no value"), std::string::npos) << front.out;
+  EXPECT_NE(front.out.find("no setting has both a time and the front_m error"), std::string::npos) << front.out;
+  EXPECT_NE(text_of(folder / "out/report.html").find("no front_m error"), std::string::npos);
 }
 
 TEST(StudyCommand, WhatCannotBeStudiedIsRefused) {

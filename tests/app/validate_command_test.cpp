@@ -80,7 +80,7 @@ TEST_F(ValidateCommand, ExitsWith5OnAnExpectedFailureThatPasses) {
 }
 
 TEST_F(ValidateCommand, TakesASceneAndATable) {
-  write("table.csv", "time_s,y_cm_m,floor\n0,0.75,0\n0.2,0.5538,0\n");  // longer than the scene says
+  write("table.csv", "time_s,y_cm_m,x_cm_m\n0,0.75,0.45\n0.2,0.5538,0.45\n");  // longer than the scene says
   const std::vector<std::string> given{path("fall.toml"), "--expected", path("table.csv"), "--pressure", "wcsph"};
   auto arguments = given;
   arguments.insert(arguments.end(), {"--tolerance", "1e-5"});
@@ -90,6 +90,64 @@ TEST_F(ValidateCommand, TakesASceneAndATable) {
   const Outcome without = validate(given);
   EXPECT_EQ(without.code, 2);
   EXPECT_THAT(without.err, HasSubstr("--expected and --tolerance belong together"));
+}
+
+TEST_F(ValidateCommand, RefusesTablesOutOfOrder) {
+  const auto refused = [&](const std::string& table, const std::string& why) {
+    write("table.csv", table);
+    const Outcome outcome = validate({path("fall.toml"), "--expected", path("table.csv"), "--tolerance", "1"});
+    EXPECT_EQ(outcome.code, 3) << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr(why));
+  };
+  refused("time_s,y_cm_m\n0.2,0.5\n0,0.75\n", "table.csv:3: time 0 comes after 0.2; sort the table");
+  refused("time_s,y_cm_m\n0,0.75\n0,0.75\n", "table.csv:3: time 0 is there twice");
+  refused("time_s,y_cm_m\n-1,0.75\n", "time_s = -1 is before the start of the run");
+  for (const char* tolerance : {"-1", "nan", "inf"}) {
+    write("table.csv", "time_s,y_cm_m\n0,0.75\n");
+    EXPECT_EQ(validate({path("fall.toml"), "--expected", path("table.csv"), "--tolerance", tolerance}).code, 2);
+  }
+}
+
+// Nothing passes where nothing was measured, and no case may expect that.
+TEST_F(ValidateCommand, WithoutWaterNothingPasses) {
+  std::string scene = text_of(path("fall.toml"));
+  const std::size_t block = scene.find("[[block]]");
+  write("fall.toml", scene.erase(block, scene.find("[[gauge]]") - block));
+  std::string checks;
+  for (const char* quantity : {"x_cm_m", "kinetic_j", "mass_kg", "floor", "density_error_max"})
+    checks +=
+        std::string("[[check]]\nquantity = '") + quantity +
+        "'\nvalue = 0\ntolerance = 1\ntolerance_why = 'a test'\n[[check.fails]]\nsolver = 'dfsph'\nreason = 'r'\n";
+  write("case.toml",
+        "schema = 1\ntitle = 't'\nsource = 's'\nscene = 'fall.toml'\nsolvers = ['wcsph', 'dfsph']\n" + checks);
+  const Outcome outcome = validate({path("case.toml"), "--json", path("r.json")});
+  EXPECT_EQ(outcome.code, 5) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("no value"));
+  EXPECT_THAT(outcome.out, HasSubstr("no particles from 0 to 0.1 s: nothing was measured"));
+  EXPECT_THAT(outcome.out, HasSubstr("0 passed, 0 failed as expected, 10 unexpected"));
+  for (const auto& check : Json::parse(text_of(path("r.json")))["cases"][0]["checks"])
+    for (const auto& result : check["results"]) {
+      EXPECT_EQ(result["verdict"], "fail");
+      EXPECT_EQ(result["as_expected"], false);
+      EXPECT_TRUE(result["error"].is_null());
+      EXPECT_THAT(result["problem"], HasSubstr("no particles"));
+    }
+}
+
+TEST_F(ValidateCommand, SaysWhenThereIsNoValue) {
+  write("case.toml",
+        "schema = 1\ntitle = 't'\nsource = 's'\nscene = 'fall.toml'\nsolvers = ['wcsph']\n"
+        "[[check]]\nquantity = 'front_m'\nvalue = 0\ntolerance = 9\ntolerance_why = 'a test'\n"
+        "[[check]]\nquantity = 'floor'\nvalue = 0\ntolerance = 9\ntolerance_why = 'a test'\n");
+  const Outcome outcome = validate({path("case.toml"), "--json", path("r.json"), "--out", path("out")});
+  EXPECT_EQ(outcome.code, 5) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("no value"));
+  EXPECT_THAT(outcome.out, HasSubstr("front_m has no value at 49 of 49 times, first at 0 s; it needs a free particle"));
+  EXPECT_THAT(outcome.out, HasSubstr("gauge floor was outside of the water from 0.009375 to 0.09271 s"));
+  const Json checks = Json::parse(text_of(path("r.json")))["cases"][0]["checks"];
+  EXPECT_TRUE(checks[0]["results"][0]["furthest"]["measured"].is_null());
+  EXPECT_TRUE(checks[0]["results"][0]["points"][0]["measured"].is_null());
+  EXPECT_THAT(text_of(path("out/report.html")), HasSubstr("no value"));
 }
 
 TEST_F(ValidateCommand, WritesPlotsSeriesAndAPage) {

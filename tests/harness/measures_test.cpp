@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/scene.h"
@@ -68,6 +69,20 @@ TEST(Observation, HeldParticlesAreNoFrontUntilTheyAreFreed) {
   ASSERT_EQ(particles.size(), 72u);
   EXPECT_NEAR(observe(scene, particles, 0.4).front_max_m, 0.4, 1e-15);
   EXPECT_NEAR(observe(scene, particles, 0.5).front_max_m, 0.7, 1e-15);
+}
+
+TEST(Observation, WithoutParticlesLengthsHaveNoValueAndSumsAreZero) {
+  const Observation seen = observe(small_scene(), Particles{}, 0.0);
+  for (const double length : {seen.front_m, seen.front_max_m, seen.height_m, seen.centre_m.x(), seen.centre_m.z()})
+    EXPECT_TRUE(std::isnan(length));
+  EXPECT_EQ(seen.kinetic_j, 0.0);
+  EXPECT_EQ(seen.potential_j, 0.0);
+  Particles high;  // alone, far above the floor, far from x = 0
+  high.add(0, {0.75, 0.65, 0.35}, Eigen::Vector3d::Zero());
+  const Observation drop = observe(small_scene(), high, 0.0);
+  EXPECT_TRUE(std::isnan(drop.front_m));
+  EXPECT_TRUE(std::isnan(drop.height_m));
+  EXPECT_NEAR(drop.front_max_m, 0.8, 1e-15);
 }
 
 TEST(Energy, CountsFromAnId) {

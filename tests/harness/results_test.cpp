@@ -166,6 +166,7 @@ TEST(Csv, EveryLineHasTheColumnsOfItsHeader) {
     ASSERT_TRUE(std::getline(lines, header) && std::getline(lines, line));
     EXPECT_EQ(columns(header), columns(line)) << text;
   }
+  EXPECT_NE(series.str().find("\n0,,,,,,,0,0\n"), std::string::npos) << series.str();  // lengths of nothing
 }
 
 TEST(Csv, ParticlesAreInWorldCoordinatesInOrderOfIds) {

@@ -16,12 +16,16 @@ struct Observable {
   double (*value)(const Observation&);
 };
 
+/// Water that is there in one run alone is as far off as it lies from the corner. States that are not finite still
+/// differ: their energies are no numbers.
+double place(double length) { return std::isnan(length) ? 0.0 : length; }
+
 constexpr Observable k_observables[] = {
-    {"front_m", [](const Observation& o) { return o.front_m; }},
-    {"height_m", [](const Observation& o) { return o.height_m; }},
-    {"x_cm_m", [](const Observation& o) { return o.centre_m.x(); }},
-    {"y_cm_m", [](const Observation& o) { return o.centre_m.y(); }},
-    {"z_cm_m", [](const Observation& o) { return o.centre_m.z(); }},
+    {"front_m", [](const Observation& o) { return place(o.front_m); }},
+    {"height_m", [](const Observation& o) { return place(o.height_m); }},
+    {"x_cm_m", [](const Observation& o) { return place(o.centre_m.x()); }},
+    {"y_cm_m", [](const Observation& o) { return place(o.centre_m.y()); }},
+    {"z_cm_m", [](const Observation& o) { return place(o.centre_m.z()); }},
     {"kinetic_j", [](const Observation& o) { return o.kinetic_j; }},
     {"potential_j", [](const Observation& o) { return o.potential_j; }},
 };

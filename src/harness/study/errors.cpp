@@ -10,15 +10,6 @@ namespace squall::harness {
 
 namespace {
 
-/// The observables whose errors make up an error.
-std::vector<std::string> parts_of(const std::string& error) {
-  if (error != k_combined_error) return {error};
-  std::vector<std::string> parts;
-  for (const auto& observable : study_observables())
-    if (observable.combined) parts.push_back(observable.name);
-  return parts;
-}
-
 /// Output times are k frames in each record; frames of other lengths round differently.
 bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
@@ -38,21 +29,24 @@ std::vector<double> scaled(const Record& record, const std::string& name) {
   return result;
 }
 
-template <class Term>
-std::optional<double> root_mean_square(const std::string& error, std::size_t count, Term term) {
-  if (count == 0) return std::nullopt;
-  double sum = 0.0;
-  const auto parts = parts_of(error);
-  for (const auto& part : parts)
-    for (std::size_t i = 0; i < count; ++i) sum += term(part, i);
-  const double mean = sum / static_cast<double>(count * parts.size());
-  return std::isfinite(mean) ? std::optional(std::sqrt(mean)) : std::nullopt;
-}
-
 double square(double value) { return value * value; }
 
-double at(const std::vector<double>& values, std::size_t index) {
-  return index < values.size() ? values[index] : std::numeric_limits<double>::quiet_NaN();
+/// Mean square of the values that are numbers, of the first `count`; empty if none is.
+std::optional<double> mean_square(const std::vector<double>& values, std::size_t count) {
+  double sum = 0.0, numbers = 0.0;
+  for (std::size_t i = 0; i < std::min(count, values.size()); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    sum += square(values[i]);
+    numbers += 1.0;
+  }
+  return numbers > 0.0 ? std::optional(sum / numbers) : std::nullopt;
+}
+
+/// a - b; NaN where one of them has no value.
+std::vector<double> less(std::vector<double> a, const std::vector<double>& b) {
+  a.resize(std::min(a.size(), b.size()));
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  return a;
 }
 
 /// Least-squares slope of ln(separation) over time, where it grows from the start to the horizon.
@@ -73,23 +67,43 @@ std::optional<double> growth_rate(const Growth& growth) {
 
 }  // namespace
 
+std::vector<std::string> parts_of(const std::string& error) {
+  if (error != k_combined_error) return {error};
+  std::vector<std::string> parts;
+  for (const auto& observable : study_observables())
+    if (observable.combined) parts.push_back(observable.name);
+  return parts;
+}
+
+bool has_value(const Record& record, const std::string& observable) {
+  const auto values = scaled(record, observable);
+  return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
 std::optional<double> difference(const Record& a, const Record& b, const std::string& error, double until_s) {
   const std::size_t count = times_until(a, until_s);
   if (count != times_until(b, until_s)) return std::nullopt;
   for (std::size_t i = 0; i < count; ++i)
     if (!same_time(a.time_s[i], b.time_s[i])) return std::nullopt;
-  std::map<std::string, std::vector<double>> of_a, of_b;
-  for (const auto& part : parts_of(error)) of_a[part] = scaled(a, part), of_b[part] = scaled(b, part);
-  return root_mean_square(error, count, [&](const std::string& part, std::size_t i) {
-    return square(at(of_a[part], i) - at(of_b[part], i));
-  });
+  double sum = 0.0, parts = 0.0;
+  for (const auto& part : parts_of(error)) {
+    if (!has_value(a, part) && !has_value(b, part)) continue;
+    const auto mean = mean_square(less(scaled(a, part), scaled(b, part)), count);
+    if (!mean) return std::nullopt;
+    sum += *mean;
+    parts += 1.0;
+  }
+  return parts > 0.0 && std::isfinite(sum) ? std::optional(std::sqrt(sum / parts)) : std::nullopt;
 }
 
 std::optional<double> size_of(const Record& record, const std::string& error, double until_s) {
-  std::map<std::string, std::vector<double>> of;
-  for (const auto& part : parts_of(error)) of[part] = scaled(record, part);
-  return root_mean_square(error, times_until(record, until_s),
-                          [&](const std::string& part, std::size_t i) { return square(at(of[part], i)); });
+  double sum = 0.0, parts = 0.0;
+  for (const auto& part : parts_of(error))
+    if (const auto mean = mean_square(scaled(record, part), times_until(record, until_s))) {
+      sum += *mean;
+      parts += 1.0;
+    }
+  return parts > 0.0 ? std::optional(std::sqrt(sum / parts)) : std::nullopt;
 }
 
 bool is_exact(const std::string& error) {

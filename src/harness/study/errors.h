@@ -12,11 +12,18 @@ namespace squall::harness {
 
 inline constexpr double k_no_end = std::numeric_limits<double>::infinity();
 
-/// Root mean square, over the output times both have up to `until_s`, of the difference of an observable, each over its
-/// own scale; of the combined error that of its observables together. Empty if a time or a value is missing in one.
+/// The observables whose errors make up an error: itself, or those of the combined one.
+std::vector<std::string> parts_of(const std::string& error);
+
+/// Whether a record has a value of an observable at any output time, and a scale to hold it against.
+bool has_value(const Record& record, const std::string& observable);
+
+/// Root mean square of the difference of an observable, each over its own scale, over the output times up to `until_s`
+/// at which both have a value; of the combined error that of its observables, those left out that neither has. Empty if
+/// the times are not the same, if only one of them has an observable, or if they have none at the same time.
 std::optional<double> difference(const Record& a, const Record& b, const std::string& error, double until_s = k_no_end);
 
-/// The same against the exact value 0.
+/// The same against the exact value 0, over the times at which the record has a value.
 std::optional<double> size_of(const Record& record, const std::string& error, double until_s = k_no_end);
 
 /// Whether an error needs no reference, as its exact value is 0.

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "harness/report/plain_text.h"
 #include "harness/statistics.h"
+#include "harness/study/gaps.h"
 #include "harness/study/observables.h"
 #include "harness/study/pareto.h"
 
@@ -23,8 +24,8 @@ std::string instability_of(const StudyPoint& point, const Record& record) {
   if (!record.error.empty()) return record.error;
   const auto found = record.values.find("density_error_mean");
   if (found != record.values.end())
-    for (const double value : found->second)
-      if (!(value <= k_largest_compression))
+    for (const double value : found->second)  // NaN while there is no water yet
+      if (value > k_largest_compression)
         return fmt::format("mean compression of {:.3g} %; {:g} % is the most that is taken for water", 100.0 * value,
                            100.0 * k_largest_compression);
   if (point.run.scene.container.motions.empty() && !(record.energy_gain <= k_largest_gain))
@@ -56,6 +57,7 @@ class Judge {
     for (std::size_t i = 0; i < runs_.points.points.size(); ++i) judge_point(i);
     rank();
     result_.orders = find_orders(runs_, result_);
+    result_.gaps = observable_gaps(runs_, question_);
     return std::move(result_);
   }
 
@@ -92,7 +94,10 @@ class Judge {
     finding.status = first.device_failed      ? PointStatus::failed
                      : finding.reason.empty() ? PointStatus::fine
                                               : PointStatus::unstable;
-    if (finding.status == PointStatus::fine) judge_errors(i, first, finding);
+    if (finding.status != PointStatus::fine) return;
+    judge_errors(i, first, finding);
+    const Record* yardstick = result_.yardstick ? runs_.models[*result_.yardstick].reference_record : nullptr;
+    finding.reason = missing_error(first, yardstick, question_.error);
   }
 
   void judge_errors(std::size_t i, const Record& record, PointFinding& finding) const {

@@ -30,7 +30,7 @@ struct ErrorFinding {
 
 struct PointFinding {
   PointStatus status = PointStatus::not_run;
-  std::string reason;                                ///< why it is unstable or failed
+  std::string reason;                                ///< why it is unstable, failed or has no error to rank by
   std::vector<double> wall_s_per_s;                  ///< of each timing
   double cost = 0.0;                                 ///< their median
   double frame_ms_median = 0.0, frame_ms_p95 = 0.0;  ///< medians over the timings
@@ -62,6 +62,7 @@ struct StudyFindings {
   std::vector<PointFinding> points;  ///< as in StudyPoints
   std::vector<ModelFinding> models;  ///< likewise
   std::vector<OrderFinding> orders;
+  std::vector<std::string> gaps;         ///< observables without a value, a sentence each
   std::optional<std::size_t> yardstick;  ///< the model whose reference total errors are against
   std::vector<std::size_t> front;        ///< points, cheapest first
   std::optional<std::size_t> cheapest;   ///< within max_error

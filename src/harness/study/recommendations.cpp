@@ -36,7 +36,9 @@ std::vector<std::string> recommendations(const StudyResult& result) {
   std::vector<std::string> texts;
   const auto& front = result.findings.front;
   const auto& question = result.question;
-  if (front.empty()) texts.push_back("no setting has both a time and an error yet: nothing can be recommended");
+  if (front.empty())
+    texts.push_back(fmt::format("no setting has both a time and the {} error{}: nothing can be recommended",
+                                question.error, result.runs.interrupted ? " yet" : ""));
   if (question.max_error)
     texts.push_back(chosen(result, fmt::format("cheapest with an error of at most {:g}", *question.max_error),
                            result.findings.cheapest));

@@ -29,6 +29,16 @@ void add_table(const ResultTable& table, HtmlReport& page, bool all_left = false
   page.table(table.header, table.rows, all_left);
 }
 
+void add_unranked(const StudyResult& result, HtmlReport& page) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < result.findings.points.size(); ++i)
+    if (const auto& point = result.findings.points[i]; point.status == PointStatus::fine && !point.reason.empty())
+      rows.push_back({result.runs.points.points[i].name, point.reason});
+  if (rows.empty()) return;
+  page.heading("Settings without an error to rank them by");
+  page.table({"setting", "why"}, rows, true);
+}
+
 void add_unstable(const StudyResult& result, HtmlReport& page) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < result.findings.points.size(); ++i)
@@ -107,6 +117,7 @@ std::string study_html(const StudyResult& result, const std::vector<Picture>& pi
   add_table(noise_table(result), page);
   add_table(order_table(result), page);
   add_unstable(result, page);
+  add_unranked(result, page);
   page.heading("Run them again");
   add_table(command_table(result), page, true);
   add_context(result, page);

@@ -35,7 +35,7 @@ std::vector<std::string> cost_row(const StudyResult& result, std::size_t i) {
           number(point.cost),
           spread(point.wall_s_per_s),
           number(point.frame_ms_p95),
-          error == nullptr ? "" : error_text(*error),
+          error == nullptr ? "no value" : error_text(*error),
           cell(point.total_errors, "density_error_mean"),
           point.on_front ? "front" : ""};
 }

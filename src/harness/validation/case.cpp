@@ -45,6 +45,12 @@ const char* to_string(Measure measure) {
   return "";
 }
 
+double duration_of(const Case& of) {
+  constexpr double k_rounding = 1e-9;
+  const double rate_hz = of.scene.time.frame_rate_hz * of.samples_per_frame;
+  return std::max(1.0, std::ceil(of.duration_s * rate_hz - k_rounding)) / rate_hz;
+}
+
 int most_samples(const Scene& scene) {
   return std::clamp(static_cast<int>(k_most_samples_hz / scene.time.frame_rate_hz), 1, k_most_samples);
 }
@@ -81,6 +87,9 @@ Case case_from_table(const std::string& scene_path, const std::string& table_pat
     check.source = table_path;
     check.expected.points = points;
     check.measure = Measure::rms;
+    if (points.front().time_s < 0.0)
+      throw InputError(fmt::format("{}: time_s = {} is before the start of the run; times begin at 0", table_path,
+                                   points.front().time_s));
     double largest = 0.0;
     for (const auto& point : points) {
       largest = std::max(largest, std::abs(point.value));
@@ -88,7 +97,7 @@ Case case_from_table(const std::string& scene_path, const std::string& table_pat
     }
     if (largest > 0.0) check.scale = largest;
     check.tolerance = tolerance;
-    check.tolerance_why = "as given, of the column's largest value";
+    check.tolerance_why = largest > 0.0 ? "as given, of the column's largest value" : "as given; the column is 0";
     result.checks.push_back(std::move(check));
   }
   result.duration_s = latest;

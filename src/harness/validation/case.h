@@ -13,7 +13,7 @@ namespace squall::harness {
 /// A value that something should have at a time, and how far repeated measurements of it lie apart.
 struct ExpectedPoint {
   double time_s = 0.0, value = 0.0;
-  std::optional<double> low = {}, high = {};
+  std::optional<double> low = {}, high = {};  ///< low <= value <= high
 };
 
 /// What a check holds the measured quantity against; exactly one of its parts.
@@ -69,6 +69,8 @@ struct Case {
 /// What a case is where its file says nothing: all solvers that can run its scene, for as long as that says, with
 /// enough samples for means of pressures.
 void set_defaults(Case& result);
+/// How long its runs are [s]: duration_s, up to a whole sample.
+double duration_of(const Case& of);
 /// Most samples per frame of a scene: 64, and no more than 1000 a second.
 int most_samples(const Scene& scene);
 
@@ -80,13 +82,18 @@ Case parse_case(const std::string& text, const std::string& path, const FileRead
 Case load_case(const std::string& path);
 
 /// A case from a scene and a table of expected values, both files: a check per column, the rms difference over the
-/// column's largest value, which may be at most `tolerance`. It runs as long as the table says. Throws InputError like
-/// load_case().
+/// column's largest value (over 1 where that is 0), which may be at most `tolerance`. It runs as long as the table
+/// says, whose times begin at 0. Throws InputError like load_case().
 Case case_from_table(const std::string& scene_path, const std::string& table_path, double tolerance);
 
 /// A table of expected values from CSV text: a header with time_s first and, for each quantity, a column of its name
-/// and, if its spread is known, name_low and name_high. Cells may be empty. Lines that start with # are comments.
-/// Throws InputError with file:line.
+/// and, if its spread is known, name_low and name_high. Times rise from line to line; cells of values may be empty.
+/// Lines that start with # are comments. Throws InputError with file:line.
 std::map<std::string, std::vector<ExpectedPoint>> parse_expected_csv(const std::string& text, const std::string& path);
+
+/// Why a time [s] cannot follow another (absent: it is the first) in a table; empty if it can.
+std::string order_problem(const std::optional<double>& before_s, double time_s);
+/// What is wrong with how far repeated measurements lie apart: low <= value <= high. Empty if nothing is.
+std::string spread_problem(const ExpectedPoint& point);
 
 }  // namespace squall::harness

@@ -6,25 +6,22 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/measures.h"
+#include "harness/validation/measure.h"
+
 namespace squall::harness {
 
 namespace {
-
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-
-bool is_in(const Check& check, double time_s) {
-  constexpr double k_rounding = 1e-9;
-  return time_s >= check.from_s.value_or(-1e30) - k_rounding && time_s <= check.to_s.value_or(1e30) + k_rounding;
-}
 
 /// First value of a column from a time on.
 double first_value(const Column& column, double from_s) {
   for (std::size_t i = 0; i < column.value.size(); ++i)
     if (column.time_s[i] >= from_s - 1e-9 && std::isfinite(column.value[i])) return column.value[i];
-  return k_nan;
+  return k_no_value;
 }
 
-/// What is expected, at the times at which it is: those of a table, else those of the measured values.
+/// What is expected, at the times at which it is: those of a table, else those of the samples; NaN where what it should
+/// be like has no value.
 std::vector<ExpectedPoint> expected_points(const Check& check, const Scene& scene, const TimeSeries& series,
                                            const Column& measured) {
   std::vector<ExpectedPoint> points;
@@ -38,73 +35,24 @@ std::vector<ExpectedPoint> expected_points(const Check& check, const Scene& scen
   const double start = first_value(measured, check.from_s.value_or(-1e30));
   for (std::size_t i = 0; i < measured.value.size(); ++i) {
     const double time = measured.time_s[i];
-    if (!is_in(check, time) || !std::isfinite(measured.value[i])) continue;
-    const double value = like != nullptr ? value_at(*like, time).value_or(k_nan) : curve ? curve(time) : start;
-    if (std::isfinite(value)) points.push_back({time, value, {}, {}});
+    if (!is_in(check, time)) continue;
+    const double value = like != nullptr ? value_at(*like, time).value_or(k_no_value) : curve ? curve(time) : start;
+    points.push_back({time, value, {}, {}});
   }
   return points;
 }
 
-/// Empty if a point lies outside of what was measured.
 std::vector<ComparedPoint> compare(const std::vector<ExpectedPoint>& expected, const Column& measured, double shift_s) {
   std::vector<ComparedPoint> points;
-  for (const auto& point : expected) {
-    const auto value = value_at(measured, point.time_s + shift_s);
-    if (!value) return {};
-    points.push_back({point.time_s, *value, point.value});
-  }
+  for (const auto& point : expected)
+    points.push_back({point.time_s, value_at(measured, point.time_s + shift_s).value_or(k_no_value), point.value});
   return points;
 }
 
-double point_error(const Check& check, const ComparedPoint& point) {
-  const double unit = check.relative ? std::abs(point.expected) : check.scale.value_or(1.0);
-  return (point.measured - point.expected) / unit;
-}
+bool is_missing(const ComparedPoint& point) { return !std::isfinite(point.measured) || !std::isfinite(point.expected); }
 
-/// Slope, intercept of the line through measured against expected (least squares).
-struct Line {
-  double slope = 0.0, offset = 0.0;
-};
-
-Line line_through(const std::vector<ComparedPoint>& points) {
-  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  const auto n = static_cast<double>(points.size());
-  for (const auto& p : points) {
-    x += p.expected / n;
-    y += p.measured / n;
-  }
-  for (const auto& p : points) {
-    xx += (p.expected - x) * (p.expected - x);
-    xy += (p.expected - x) * (p.measured - y);
-  }
-  const double slope = xy / xx;
-  return {slope, y - slope * x};
-}
-
-/// Mean time between crossings of the mean in the same direction, of both directions; NaN with fewer than one period.
-double period_of(const std::vector<ComparedPoint>& points) {
-  double mean = 0.0;
-  for (const auto& p : points) mean += p.measured / static_cast<double>(points.size());
-  std::vector<double> crossings[2];
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double before = points[i - 1].measured - mean, after = points[i].measured - mean;
-    if ((before < 0.0) == (after < 0.0)) continue;
-    const double share = before / (before - after);
-    crossings[after > before].push_back(points[i - 1].time_s + share * (points[i].time_s - points[i - 1].time_s));
-  }
-  double sum = 0.0, count = 0.0;
-  for (const auto& times : crossings) {
-    if (times.size() < 2) continue;
-    sum += times.back() - times.front();
-    count += static_cast<double>(times.size() - 1);
-  }
-  return count > 0.0 ? sum / count : k_nan;
-}
-
-double rms_of(const Check& check, const std::vector<ComparedPoint>& points) {
-  double sum = 0.0;
-  for (const auto& p : points) sum += point_error(check, p) * point_error(check, p);
-  return std::sqrt(sum / static_cast<double>(points.size()));
+bool any_missing(const std::vector<ComparedPoint>& points) {
+  return std::any_of(points.begin(), points.end(), is_missing);
 }
 
 /// The shift with the smallest rms error for which every point can be compared: a scan, then a finer one around the
@@ -118,8 +66,8 @@ std::optional<double> best_shift(const Check& check, const std::vector<ExpectedP
     for (int i = -k_steps; i <= k_steps; ++i) {
       const double shift = std::clamp(centre + reach * i / k_steps, -*check.largest_shift_s, *check.largest_shift_s);
       const auto points = compare(expected, measured, shift);
-      if (points.empty()) continue;
-      const double error = rms_of(check, points);
+      if (any_missing(points)) continue;
+      const double error = rms_error(check, points);
       if (!(error < least)) continue;
       least = error;
       best = shift;
@@ -131,74 +79,70 @@ std::optional<double> best_shift(const Check& check, const std::vector<ExpectedP
   return best;
 }
 
-ComparedPoint furthest(const std::vector<ComparedPoint>& points,
-                       const std::function<double(const ComparedPoint&)>& distance) {
-  return *std::max_element(points.begin(), points.end(),
-                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-}
-
-void measure_points(const Check& check, Finding& finding) {
-  const auto& points = finding.points;
-  const auto distance = [&](const ComparedPoint& p) { return std::abs(point_error(check, p)); };
-  finding.worst = furthest(points, distance);
-  const auto n = static_cast<double>(points.size());
-  const Line line = line_through(points);
-  switch (check.measure) {
-    case Measure::max:
-      finding.error = distance(finding.worst);
-      break;
-    case Measure::rms:
-      finding.error = rms_of(check, points);
-      break;
-    case Measure::mean: {
-      ComparedPoint mean;
-      for (const auto& p : points) {
-        finding.error += point_error(check, p) / n;
-        mean.measured += p.measured / n;
-        mean.expected += p.expected / n;
-      }
-      mean.time_s = points.back().time_s;
-      finding.worst = mean;
-      finding.error = std::abs(finding.error);
-      break;
-    }
-    case Measure::slope:
-      finding.worst = {points.back().time_s, line.slope, 1.0};
-      finding.error = std::abs(line.slope - 1.0);
-      break;
-    case Measure::line: {
-      const auto from_line = [&](const ComparedPoint& p) {
-        return std::abs(p.measured - line.offset - line.slope * p.expected) / check.scale.value_or(1.0);
-      };
-      finding.worst = furthest(points, from_line);
-      finding.error = from_line(finding.worst);
-      break;
-    }
-    case Measure::period:
-      finding.worst = {points.back().time_s, period_of(points), points.back().expected};
-      finding.error = std::abs(point_error(check, finding.worst));
-      break;
-    case Measure::below:
-    case Measure::above: {
-      const double sign = check.measure == Measure::below ? 1.0 : -1.0;
-      const auto beyond = [&](const ComparedPoint& p) { return sign * point_error(check, p); };
-      finding.worst = furthest(points, beyond);
-      finding.error = std::max(0.0, beyond(finding.worst));
-      break;
-    }
-  }
-}
-
 std::string span_text(const Column& column) {
   return column.time_s.empty() ? "nothing"
                                : fmt::format("{:.4g} to {:.4g} s", column.time_s.front(), column.time_s.back());
 }
 
-bool starts_before(const ExpectedPoint& first, const Column& column) {
-  return !column.time_s.empty() && first.time_s < column.time_s.front();
+/// Beyond an end of what was measured, where that end itself has a value.
+bool is_outside(const Column& column, double time_s) {
+  if (column.time_s.empty()) return true;
+  return (time_s < column.time_s.front() && std::isfinite(column.value.front())) ||
+         (time_s > column.time_s.back() && std::isfinite(column.value.back()));
+}
+
+std::string needs_text(const Column& column) {
+  return column.needs.empty() ? "" : fmt::format("; it needs {}", column.needs);
+}
+
+/// Why points cannot be compared; empty if they can.
+std::string missing_text(const Check& check, const Column& measured, const TimeSeries& series, const Finding& finding) {
+  const auto& points = finding.points;
+  const auto first = std::find_if(points.begin(), points.end(), is_missing);
+  if (first == points.end()) return "";
+  const auto count = std::count_if(points.begin(), points.end(), is_missing);
+  if (is_outside(measured, first->time_s + finding.shift_s.value_or(0.0)))
+    return fmt::format("expected values reach from {:.4g} to {:.4g} s, {} has values over {}: {}",
+                       points.front().time_s, points.back().time_s, check.quantity, span_text(measured),
+                       first->time_s < measured.time_s.front() ? "set from_s" : "lengthen duration_s");
+  const std::string where = fmt::format("at {} of {} times, first at {:.4g} s", count, points.size(), first->time_s);
+  constexpr const char* k_advice = ": compare when there is some (from_s, to_s), or mend the scene";
+  if (!std::isfinite(first->measured))
+    return fmt::format("{} has no value {}{}{}", check.quantity, where, needs_text(measured), k_advice);
+  if (const Column* like = series.find(check.expected.like))
+    return fmt::format("{}, which it should be like, has no value {}{}{}", like->name, where, needs_text(*like),
+                       k_advice);
+  return fmt::format("formula {} gives no finite number {}", check.expected.formula, where);
+}
+
+/// Why what was compared says nothing, though it has values; empty if it does.
+std::string emptiness_text(const Check& check, const Column& measured, const Finding& finding) {
+  const double shift_s = finding.shift_s.value_or(0.0);
+  const auto& points = finding.points;
+  if (std::all_of(points.begin(), points.end(),
+                  [&](const auto& point) { return is_dry_at(measured, point.time_s + shift_s); }))
+    return fmt::format(
+        "gauge {} was outside of the water from {:.4g} to {:.4g} s, where it shows 0 whatever happens: move it into "
+        "the water; that a place stays dry is for a level gauge to check",
+        check.quantity, points.front().time_s, points.back().time_s);
+  if (check.expected.formula == "start" && points.size() < 2)
+    return "there is only the start itself between from_s and to_s; leave it time to change";
+  return "";
+}
+
+std::string infinite_text(const Check& check) {
+  if (check.measure == Measure::period) return "less than one period was seen";
+  if (check.measure == Measure::slope || check.measure == Measure::line)
+    return "all expected values are the same: no line through them";
+  return "the error is not finite: a relative error of an expected value of 0 has no meaning";
 }
 
 }  // namespace
+
+bool is_in(const Check& check, double time_s) {
+  constexpr double k_rounding = 1e-9;
+  return time_s >= check.from_s.value_or(-1e30) - k_rounding && time_s <= check.to_s.value_or(1e30) + k_rounding;
+}
 
 double tolerance_of(const Check& check, double spacing_m) {
   return check.tolerance + check.tolerance_dx * spacing_m / check.scale.value_or(1.0);
@@ -218,7 +162,7 @@ Curve expected_curve(const Check& check, const Scene& scene) {
 Finding judge(const Check& check, const Scene& scene, const TimeSeries& series) {
   Finding finding;
   finding.tolerance = tolerance_of(check, scene.fluid.spacing_m);
-  finding.error = k_nan;
+  finding.error = k_no_value;
   const Column* measured = series.find(check.quantity);
   if (measured == nullptr) {
     finding.problem = check.quantity + " was not measured";
@@ -232,23 +176,18 @@ Finding judge(const Check& check, const Scene& scene, const TimeSeries& series) 
   }
   if (check.largest_shift_s) finding.shift_s = best_shift(check, expected, *measured);
   finding.points = compare(expected, *measured, finding.shift_s.value_or(0.0));
-  if (finding.points.empty() || (check.largest_shift_s && !finding.shift_s)) {
-    finding.points.clear();
-    finding.problem = fmt::format("expected values reach from {:.4g} to {:.4g} s, {} has values over {}: {}",
-                                  expected.front().time_s, expected.back().time_s, check.quantity, span_text(*measured),
-                                  starts_before(expected.front(), *measured) ? "set from_s" : "lengthen duration_s");
-    return finding;
-  }
+  finding.worst = *std::max_element(finding.points.begin(), finding.points.end(),
+                                    [](const auto& a, const auto& b) { return is_missing(a) < is_missing(b); });
+  finding.problem = missing_text(check, *measured, series, finding);
+  if (finding.problem.empty()) finding.problem = emptiness_text(check, *measured, finding);
+  finding.lacks_values = !finding.problem.empty();
+  if (finding.lacks_values) return finding;
   finding.error = 0.0;
   measure_points(check, finding);
-  if (std::isfinite(finding.error)) {
+  if (std::isfinite(finding.error))
     finding.passed = finding.error <= finding.tolerance;
-    return finding;
-  }
-  finding.problem = check.measure == Measure::period ? "less than one period was seen"
-                    : check.measure == Measure::slope || check.measure == Measure::line
-                        ? "all expected values are the same: no line through them"
-                        : "the error is not finite: a relative error of an expected value of 0 has no meaning";
+  else
+    finding.problem = infinite_text(check);
   return finding;
 }
 

@@ -10,7 +10,7 @@
 
 namespace squall::harness {
 
-/// Measured against expected at one time, in the quantity's unit.
+/// Measured against expected at one time, in the quantity's unit; NaN where the quantity has no value.
 struct ComparedPoint {
   double time_s = 0.0, measured = 0.0, expected = 0.0;
 };
@@ -18,12 +18,17 @@ struct ComparedPoint {
 /// What a check found in a run.
 struct Finding {
   bool passed = false;
-  std::string problem;  ///< why there is no error to judge; empty if there is one. Such a check has failed
+  std::string problem;        ///< why there is no error to judge; empty if there is one. Such a check has failed
+  bool lacks_values = false;  ///< nothing was measured where something should be: no failure that a case may expect
   double error = 0.0, tolerance = 0.0;
   std::optional<double> shift_s;  ///< measured(t + shift) is held against expected(t)
-  ComparedPoint worst;            ///< where they are furthest apart; of a slope or period, these themselves at time 0
+  ComparedPoint worst;            ///< where they are furthest apart, or the first without a value; of a slope or
+                                  ///< period, these themselves
   std::vector<ComparedPoint> points;
 };
+
+/// Whether a time [s] lies between from_s and to_s of a check.
+bool is_in(const Check& check, double time_s);
 
 /// Tolerance of a check at a spacing [m], in the unit of its error.
 double tolerance_of(const Check& check, double spacing_m);

@@ -4,6 +4,7 @@
 
 #include "core/errors.h"
 #include "core/nearest_name.h"
+#include "harness/validation/check.h"
 #include "harness/validation/formulas.h"
 #include "harness/validation/observer.h"
 
@@ -20,6 +21,7 @@ struct Units {
     ExpectedPoint result{time_offset_s + time_scale_s * p.time_s, convert(p.value), {}, {}};
     if (p.low) result.low = convert(*p.low);
     if (p.high) result.high = convert(*p.high);
+    if (value_scale < 0.0) std::swap(result.low, result.high);
     return result;
   }
 };
@@ -50,6 +52,10 @@ void read_points(TableReader& reader, Expectation& expected) {
       point.low = numbers[2];
       point.high = numbers[3];
     }
+    const auto before = expected.points.empty() ? std::nullopt : std::optional(expected.points.back().time_s);
+    if (const std::string problem = order_problem(before, point.time_s); !problem.empty())
+      reader.fail_at(entry, problem);
+    if (const std::string problem = spread_problem(point); !problem.empty()) reader.fail_at(entry, problem);
     expected.points.push_back(point);
   }
 }
@@ -98,8 +104,6 @@ void read_expectation(TableReader& reader, const CaseFiles& files, Check& check)
   read_points(reader, check.expected);
   read_table(reader, files, check);
   for (auto& point : check.expected.points) point = units(point);
-  std::stable_sort(check.expected.points.begin(), check.expected.points.end(),
-                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   if (check.expected.points.empty() && (reader.has("time_scale_s") || reader.has("time_offset_s") ||
                                         reader.has("value_scale") || reader.has("value_offset")))
     reader.fail("quantity", "time_scale_s, time_offset_s, value_scale and value_offset belong to points and table");
@@ -133,10 +137,10 @@ void read_measure(TableReader& reader, Check& check) {
 }
 
 /// Tries the formula out, so that what is wrong is said with its place in the file.
-void read_formula(TableReader& reader, Check& check, const Scene& scene) {
+void read_formula(TableReader& reader, Check& check, const Case& of) {
   const toml::node* node = reader.node("parameters");
   if (node != nullptr) {
-    if (check.expected.formula.empty() || !node->is_table())
+    if (!reader.has("formula") || !node->is_table())
       reader.fail("parameters", "parameters is a table of numbers that belongs to formula");
     for (const auto& [key, entry] : *node->as_table()) {
       const auto number = number_of(entry);
@@ -144,13 +148,67 @@ void read_formula(TableReader& reader, Check& check, const Scene& scene) {
       check.expected.parameters[std::string(key.str())] = *number;
     }
   }
-  if (!check.expected.like.empty()) check_quantity(reader, "like", check.expected.like, scene);
-  if (check.expected.formula.empty() || check.expected.formula == "start") return;
+  if (!reader.has("formula") || check.expected.formula == "start") return;
   try {
-    make_curve(check.expected.formula, {scene, check.quantity, check.expected.parameters});
+    const Curve curve = make_curve(check.expected.formula, {of.scene, check.quantity, check.expected.parameters});
+    curve(std::min(check.to_s.value_or(1e6), duration_of(of)));  // as far as it will be asked for
   } catch (const InputError& error) {
     reader.fail("formula", error.what());
   }
+}
+
+void read_like(TableReader& reader, const Check& check, const Scene& scene) {
+  if (!reader.has("like")) return;
+  check_quantity(reader, "like", check.expected.like, scene);
+  if (check.expected.like == check.quantity)
+    reader.fail("like", fmt::format("{} is always like itself; name another quantity, or formula = \"start\" for what "
+                                    "should not change",
+                                    check.quantity));
+}
+
+std::vector<ExpectedPoint> counted_points(const Check& check) {
+  auto points = check.expected.points;
+  std::erase_if(points, [&](const ExpectedPoint& point) { return !is_in(check, point.time_s); });
+  return points;
+}
+
+/// What lies beyond the run would never be looked at.
+void read_span(TableReader& reader, Check& check, const Case& of) {
+  reader.number("from_s", check.from_s, 0.0, 1e6);
+  reader.number("to_s", check.to_s, 0.0, 1e6);
+  reader.number("largest_shift_s", check.largest_shift_s, 0.0, 1e6);
+  const double end_s = duration_of(of);
+  for (const auto& [key, value] : {std::pair{"from_s", check.from_s}, std::pair{"to_s", check.to_s}})
+    if (value.value_or(0.0) > end_s * (1.0 + 1e-9))
+      reader.fail(key, fmt::format("{} = {} is after the end of the run, {:.6g} s; lengthen duration_s in [run] or "
+                                   "leave {} out",
+                                   key, *value, end_s, key));
+  if (check.from_s.value_or(0.0) > check.to_s.value_or(1e6))
+    reader.fail("to_s", fmt::format("to_s = {} is before from_s = {}", *check.to_s, *check.from_s));
+  const auto& points = check.expected.points;
+  if (!points.empty() && counted_points(check).empty())
+    reader.fail(check.to_s ? "to_s" : "from_s",
+                fmt::format("no expected value lies between from_s and to_s; they reach from {} to {} s",
+                            points.front().time_s, points.back().time_s));
+}
+
+/// Measures that could say nothing, whatever the water does.
+void refuse_idle_measures(const TableReader& reader, const Check& check) {
+  const auto& expected = check.expected;
+  const bool is_line = check.measure == Measure::slope || check.measure == Measure::line;
+  const auto points = counted_points(check);
+  const bool is_flat =
+      std::all_of(points.begin(), points.end(), [&](const auto& point) { return point.value == points.front().value; });
+  if (is_line && (expected.value || expected.formula == "start" || (!points.empty() && is_flat)))
+    reader.fail("measure", fmt::format("measure {} needs expected values that differ from each other; these are one",
+                                       to_string(check.measure)));
+  if (is_line && check.relative)
+    reader.fail("relative", fmt::format("relative is no part of measure {}; leave it out", to_string(check.measure)));
+  if (check.measure == Measure::period && !expected.value && (expected.formula.empty() || expected.formula == "start"))
+    reader.fail("measure", "measure period is held against value or a formula that gives a period");
+  const bool any_zero = std::any_of(points.begin(), points.end(), [](const auto& point) { return point.value == 0.0; });
+  if (check.relative && (expected.value == 0.0 || any_zero))
+    reader.fail("relative", "relative means shares of the expected value, which is 0 here; give a scale instead");
 }
 
 void read_failures(TableReader& reader, Check& check, const Case& of) {
@@ -189,13 +247,11 @@ Check read_check(TableReader& reader, const Case& of, const CaseFiles& files) {
                   "two checks are called '" + check.name + "'; give each its own name");
   reader.optional("source", check.source);
   read_expectation(reader, files, check);
-  reader.number("from_s", check.from_s, 0.0, 1e6);
-  reader.number("to_s", check.to_s, 0.0, 1e6);
-  reader.number("largest_shift_s", check.largest_shift_s, 0.0, 1e6);
-  if (check.from_s.value_or(0.0) > check.to_s.value_or(1e6))
-    reader.fail("to_s", fmt::format("to_s = {} is before from_s = {}", *check.to_s, *check.from_s));
+  read_like(reader, check, of.scene);
+  read_span(reader, check, of);
   read_measure(reader, check);
-  read_formula(reader, check, of.scene);
+  refuse_idle_measures(reader, check);
+  read_formula(reader, check, of);
   read_failures(reader, check, of);
   return check;
 }

@@ -13,17 +13,16 @@ namespace {
 
 using Table = std::map<std::string, std::vector<ExpectedPoint>>;
 
+std::string trimmed(const std::string& text) {
+  constexpr const char* k_blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(k_blanks), last = text.find_last_not_of(k_blanks);
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
-  std::string cell;
-  for (const char c : line)
-    if (c == ',') {
-      cells.push_back(std::move(cell));
-      cell.clear();
-    } else if (c != '\r' && c != ' ' && c != '\t') {
-      cell += c;
-    }
-  cells.push_back(std::move(cell));
+  std::istringstream rest(line + ",");
+  for (std::string cell; std::getline(rest, cell, ',');) cells.push_back(trimmed(cell));
   return cells;
 }
 
@@ -59,34 +58,59 @@ void check_header(const std::vector<std::string>& header, const std::string& whe
   }
 }
 
+void check_order(double time_s, const std::string& where, const std::optional<double>& before) {
+  if (const std::string problem = order_problem(before, time_s); !problem.empty()) throw InputError(where + problem);
+}
+
 void add_line(const std::vector<std::string>& header, const std::vector<std::string>& cells, const std::string& where,
-              Table& table) {
+              std::optional<double>& last_time, Table& table) {
   if (cells.size() != header.size())
     throw InputError(where + fmt::format("this line has {} cells, the header {}", cells.size(), header.size()));
   const auto time = number_in(cells.front(), where);
   if (!time) throw InputError(where + "the time is missing");
+  check_order(*time, where, last_time);
+  last_time = time;
   for (std::size_t i = 1; i < header.size(); ++i) {
     const auto value = number_in(cells[i], where);
     if (is_spread(header, header[i]) || !value) continue;
     const auto low = position_of(header, header[i] + "_low"), high = position_of(header, header[i] + "_high");
-    table[header[i]].push_back({*time, *value, low ? number_in(cells[*low], where) : std::nullopt,
-                                high ? number_in(cells[*high], where) : std::nullopt});
+    const ExpectedPoint point{*time, *value, low ? number_in(cells[*low], where) : std::nullopt,
+                              high ? number_in(cells[*high], where) : std::nullopt};
+    if (const std::string problem = spread_problem(point); !problem.empty())
+      throw InputError(where + header[i] + ": " + problem);
+    table[header[i]].push_back(point);
   }
 }
 
 }  // namespace
 
+std::string order_problem(const std::optional<double>& before_s, double time_s) {
+  if (!before_s || time_s > *before_s) return "";
+  if (time_s == *before_s)
+    return fmt::format("time {} is there twice; give each time once, the mean of its values", time_s);
+  return fmt::format("time {} comes after {}; sort the table, times rise", time_s, *before_s);
+}
+
+std::string spread_problem(const ExpectedPoint& point) {
+  const bool right = point.low.value_or(point.value) <= point.value && point.value <= point.high.value_or(point.value);
+  if (right) return "";
+  return fmt::format("value {} must lie between its low ({}) and high ({})", point.value,
+                     point.low ? fmt::format("{}", *point.low) : "none",
+                     point.high ? fmt::format("{}", *point.high) : "none");
+}
+
 Table parse_expected_csv(const std::string& text, const std::string& path) {
   std::istringstream lines(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
   std::vector<std::string> header;
   Table table;
+  std::optional<double> last_time;
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     const std::string where = fmt::format("{}:{}: ", path, number);
     if (line.starts_with("#") || line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const auto cells = cells_of(line);
     if (!header.empty()) {
-      add_line(header, cells, where, table);
+      add_line(header, cells, where, last_time, table);
       continue;
     }
     check_header(cells, where);

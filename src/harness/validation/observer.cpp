@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "core/errors.h"
@@ -18,14 +17,13 @@ namespace squall::harness {
 
 namespace {
 
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-
 /// The time [s] that velocities of a state belong to.
 double half_step_time(const State& state, double time_s) { return time_s - 0.5 * state.clock.previous_dt; }
 
 /// Sums over all particles that are not lost, at the half step.
 struct Motion {
-  double count = 0.0, kinetic = 0.0, potential = 0.0, fastest = 0.0;  ///< energies per mass
+  double count = 0.0, kinetic = 0.0, potential = 0.0;  ///< energies per mass
+  double fastest = k_no_value;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< about the centre of mass, per mass
 };
@@ -44,9 +42,9 @@ Motion motion_of(const Scene& scene, const State& state) {
     sum.angular += x.cross(v);
     sum.kinetic += 0.5 * v.squaredNorm();
     sum.potential -= scene.gravity_m_s2.dot(x);
-    sum.fastest = std::max(sum.fastest, v.norm());
+    sum.fastest = std::fmax(sum.fastest, v.norm());  // of NaN and a speed: the speed
   }
-  if (sum.count > 0.0) sum.angular -= sum.centre.cross(sum.velocity) / sum.count;
+  sum.angular -= sum.centre.cross(sum.velocity) / sum.count;  // NaN without particles, as is their centre
   return sum;
 }
 
@@ -57,7 +55,7 @@ std::vector<Eigen::Vector3d> velocities_by_id(const Scene& scene, const State& s
   std::uint32_t last = 0;
   for (const auto id : particles.ids) last = std::max(last, id);
   std::vector<Eigen::Vector3d> velocities(particles.size() == 0 ? 0 : last + std::size_t{1},
-                                          Eigen::Vector3d::Constant(k_nan));
+                                          Eigen::Vector3d::Constant(k_no_value));
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (present.is_free(particles, i)) velocities[particles.ids[i]] = particles.velocities[i];
   return velocities;
@@ -66,44 +64,48 @@ std::vector<Eigen::Vector3d> velocities_by_id(const Scene& scene, const State& s
 }  // namespace
 
 const std::vector<Quantity>& quantities() {
+  static const std::string k_any = "a particle", k_free = "a free particle";
   static const std::vector<Quantity> all{
-      {"front_m", "m", "97th percentile of x in the lowest 2 dx, plus dx/2"},
-      {"front_max_m", "m", "largest x, plus dx/2"},
-      {"height_m", "m", "highest particle that has a neighbour, within H of x = 0, plus dx/2"},
-      {"x_cm_m", "m", "centre of mass"},
-      {"y_cm_m", "m", "centre of mass"},
-      {"z_cm_m", "m", "centre of mass"},
-      {"x_min_m", "m", "smallest x, less dx/2"},
-      {"y_min_m", "m", "smallest y, less dx/2"},
-      {"z_min_m", "m", "smallest z, less dx/2"},
-      {"x_max_m", "m", "largest x, plus dx/2"},
-      {"y_max_m", "m", "largest y, plus dx/2"},
-      {"z_max_m", "m", "largest z, plus dx/2"},
-      {"x_rms_m", "m", "root mean square distance from the centre of mass along x"},
-      {"y_rms_m", "m", "root mean square distance from the centre of mass along y"},
-      {"z_rms_m", "m", "root mean square distance from the centre of mass along z"},
-      {"depth_m", "m", "twice the mean y of all particles that have a neighbour: the depth of settled water"},
-      {"filled_depth_m", "m", "their number times dx^3 over the area of the container's floor"},
-      {"distortion_m", "m", "largest change of a particle's place relative to the centre of mass, since the start"},
-      {"mass_kg", "kg", "of all particles that are not lost"},
-      {"kinetic_j", "J", "kinetic energy"},
-      {"potential_j", "J", "potential energy, 0 at the min corner"},
-      {"energy_j", "J", "kinetic plus potential energy"},
-      {"vx_cm_m_s", "m/s", "velocity of the centre of mass"},
-      {"vy_cm_m_s", "m/s", "velocity of the centre of mass"},
-      {"vz_cm_m_s", "m/s", "velocity of the centre of mass"},
-      {"max_speed_m_s", "m/s", "largest speed of a particle"},
-      {"momentum_x_kg_m_s", "kg m/s", "momentum"},
-      {"momentum_y_kg_m_s", "kg m/s", "momentum"},
-      {"momentum_z_kg_m_s", "kg m/s", "momentum"},
-      {"angular_momentum_x_kg_m2_s", "kg m^2/s", "angular momentum about the centre of mass"},
-      {"angular_momentum_y_kg_m2_s", "kg m^2/s", "angular momentum about the centre of mass"},
-      {"angular_momentum_z_kg_m2_s", "kg m^2/s", "angular momentum about the centre of mass"},
-      {"wall_force_x_n", "N", "force of all walls and boxes on the water, mean over a frame, from its momentum"},
-      {"wall_force_y_n", "N", "the same along y: the floor's, where there is no lid and no box"},
-      {"wall_force_z_n", "N", "the same along z"},
-      {"density_error_mean", "1", "mean of max(rho/rho0 - 1, 0)"},
-      {"density_error_max", "1", "largest rho/rho0 - 1"},
+      {"front_m", "m", "97th percentile of x in the lowest 2 dx, plus dx/2", "a free particle in the lowest 2 dx"},
+      {"front_max_m", "m", "largest x, plus dx/2", k_free},
+      {"height_m", "m", "highest particle that has a neighbour, within H of x = 0, plus dx/2",
+       "a free particle with a neighbour within H of x = 0"},
+      {"x_cm_m", "m", "centre of mass", k_any},
+      {"y_cm_m", "m", "centre of mass", k_any},
+      {"z_cm_m", "m", "centre of mass", k_any},
+      {"x_min_m", "m", "smallest x, less dx/2", k_free},
+      {"y_min_m", "m", "smallest y, less dx/2", k_free},
+      {"z_min_m", "m", "smallest z, less dx/2", k_free},
+      {"x_max_m", "m", "largest x, plus dx/2", k_free},
+      {"y_max_m", "m", "largest y, plus dx/2", k_free},
+      {"z_max_m", "m", "largest z, plus dx/2", k_free},
+      {"x_rms_m", "m", "root mean square distance from the centre of mass along x", k_free},
+      {"y_rms_m", "m", "root mean square distance from the centre of mass along y", k_free},
+      {"z_rms_m", "m", "root mean square distance from the centre of mass along z", k_free},
+      {"depth_m", "m", "twice the mean y of all particles that have a neighbour: the depth of settled water",
+       "a free particle with a neighbour"},
+      {"filled_depth_m", "m", "their number times dx^3 over the area of the container's floor", ""},
+      {"distortion_m", "m", "largest change of a particle's place relative to the centre of mass, since the start",
+       "a particle of the start"},
+      {"mass_kg", "kg", "of all particles that are not lost", ""},
+      {"kinetic_j", "J", "kinetic energy", ""},
+      {"potential_j", "J", "potential energy, 0 at the min corner", ""},
+      {"energy_j", "J", "kinetic plus potential energy", ""},
+      {"vx_cm_m_s", "m/s", "velocity of the centre of mass", k_any},
+      {"vy_cm_m_s", "m/s", "velocity of the centre of mass", k_any},
+      {"vz_cm_m_s", "m/s", "velocity of the centre of mass", k_any},
+      {"max_speed_m_s", "m/s", "largest speed of a particle", k_any},
+      {"momentum_x_kg_m_s", "kg m/s", "momentum", ""},
+      {"momentum_y_kg_m_s", "kg m/s", "momentum", ""},
+      {"momentum_z_kg_m_s", "kg m/s", "momentum", ""},
+      {"angular_momentum_x_kg_m2_s", "kg m^2/s", "angular momentum about the centre of mass", k_any},
+      {"angular_momentum_y_kg_m2_s", "kg m^2/s", "angular momentum about the centre of mass", k_any},
+      {"angular_momentum_z_kg_m2_s", "kg m^2/s", "angular momentum about the centre of mass", k_any},
+      {"wall_force_x_n", "N", "force of all walls and boxes on the water, mean over a frame, from its momentum", ""},
+      {"wall_force_y_n", "N", "the same along y: the floor's, where there is no lid and no box", ""},
+      {"wall_force_z_n", "N", "the same along z", ""},
+      {"density_error_mean", "1", "mean of max(rho/rho0 - 1, 0)", k_free},
+      {"density_error_max", "1", "largest rho/rho0 - 1", k_free},
   };
   return all;
 }
@@ -123,16 +125,19 @@ std::vector<std::string> quantity_names(const Scene& scene) {
 
 Observer::Observer(const Scene& scene, Pressure pressure, int samples_per_frame)
     : scene_(scene), gauges_(scene, pressure), samples_per_frame_(static_cast<std::size_t>(samples_per_frame)) {
-  for (const auto& quantity : quantities()) series_.columns.push_back({quantity.name, quantity.unit, {}, {}, false});
+  for (const auto& quantity : quantities())
+    series_.columns.push_back({quantity.name, quantity.unit, {}, {}, false, quantity.needs});
   for (const auto& column : gauges_.columns())
-    series_.columns.push_back({column.name, column.unit, {}, {}, column.is_pressure});
+    series_.columns.push_back({column.name, column.unit, {}, {}, column.is_pressure, "water within H of the gauge"});
 }
 
-void Observer::put(const std::string& name, double time_s, double value) {
+Column& Observer::column(const std::string& name) {
   const auto found = std::find_if(series_.columns.begin(), series_.columns.end(),
                                   [&](const auto& column) { return column.name == name; });
-  found->add(time_s, value);
+  return *found;
 }
+
+void Observer::put(const std::string& name, double time_s, double value) { column(name).add(time_s, value); }
 
 void Observer::put_axes(const std::string& before, const std::string& after, double time_s,
                         const Eigen::Vector3d& value) {
@@ -147,8 +152,9 @@ void Observer::add(const State& state, const FrameReport* report) {
   if (before_) add_wall_force(state, time_s);
   add_gauges(state, time_s);
   if (report != nullptr) {
-    put("density_error_mean", time_s, report->density_error_mean);
-    put("density_error_max", time_s, report->density_error_max);
+    const bool any = report->active > 0;
+    put("density_error_mean", time_s, any ? report->density_error_mean : k_no_value);
+    put("density_error_max", time_s, any ? report->density_error_max : k_no_value);
   }
   before_ = state;
 }
@@ -196,20 +202,25 @@ void Observer::add_wall_force(const State& state, double time_s) {
 }
 
 void Observer::add_gauges(const State& state, double time_s) {
-  const auto values = gauges_.read(state);
+  const auto values = gauges_.readings(state);
   const auto& columns = gauges_.columns();
   if (before_) recent_.push_back(values);
   const bool full = recent_.size() == samples_per_frame_;
   const double span = static_cast<double>(samples_per_frame_) / scene_.time.frame_rate_hz;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (!columns[c].is_pressure) {
-      put(columns[c].name, columns[c].at_half_step ? half_step_time(state, time_s) : time_s, values[c]);
+      put(columns[c].name, columns[c].at_half_step ? half_step_time(state, time_s) : time_s, values[c].value);
     } else if (full) {
       double sum = 0.0;
-      for (const auto& sample : recent_) sum += sample[c];
+      bool is_dry = true;
+      for (const auto& sample : recent_) {
+        sum += sample[c].value;
+        is_dry = is_dry && !sample[c].in_water;
+      }
       // A mean belongs to the middle of its samples.
       put(columns[c].name, time_s - 0.5 * span * (1.0 - 1.0 / static_cast<double>(recent_.size())),
           sum / static_cast<double>(recent_.size()));
+      column(columns[c].name).is_dry.push_back(is_dry);
     }
   }
   if (full) recent_.clear();

@@ -59,7 +59,8 @@ std::vector<Series> expected_series(const CaseResult& result, std::size_t index)
   band.spread = Spread::band;
   const std::size_t stride = 1 + (found.points.size() - 1) / k_most_samples;
   for (std::size_t i = 0; i < found.points.size(); i += stride)
-    band.samples.push_back(expected_sample(check, found.tolerance, found.points[i]));
+    if (std::isfinite(found.points[i].expected))
+      band.samples.push_back(expected_sample(check, found.tolerance, found.points[i]));
   // A band needs two ends.
   if (band.samples.size() == 1) band.spread = Spread::bars;
   std::vector<Series> all{band};

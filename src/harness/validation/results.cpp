@@ -114,7 +114,7 @@ std::string run_name(const CaseRun& run) {
 
 std::string verdict_text(const Verdict& verdict) {
   if (verdict.finding.passed) return verdict.expected_to_pass ? "pass" : "PASSES, unexpected";
-  return verdict.expected_to_pass ? "FAILS" : "fails, as expected";
+  return verdict.as_expected() ? "fails, as expected" : "FAILS";
 }
 
 std::string measure_text(const Check& check) {
@@ -140,6 +140,14 @@ std::string measure_text(const Check& check) {
   return "";
 }
 
+namespace {
+
+constexpr const char* k_no_value_text = "no value";
+
+std::string measured_text(double value) { return std::isfinite(value) ? short_number(value) : k_no_value_text; }
+
+}  // namespace
+
 VerdictTable verdict_table(const CaseResult& result) {
   VerdictTable table;
   table.header = {"check", "solver", "particles", "at s", "measured", "expected",
@@ -154,7 +162,7 @@ VerdictTable verdict_table(const CaseResult& result) {
       const bool slope = check.measure == Measure::slope, period = check.measure == Measure::period;
       table.rows.push_back({check.name, run_name(run), fmt::format("{}", run.particles),
                             seen && !slope && !period ? short_number(found.worst.time_s) : "",
-                            seen ? short_number(found.worst.measured) : "",
+                            seen ? measured_text(found.worst.measured) : k_no_value_text,
                             seen ? short_number(found.worst.expected) : "",
                             slope    ? "1"
                             : period ? "s"
@@ -175,7 +183,7 @@ std::vector<std::string> remarks(const CaseResult& result) {
       if (run.interrupted) continue;
       const std::string what = fmt::format("{}, {}", result.what.checks[c].name, run_name(run));
       const std::string& problem = verdict.finding.problem;
-      if (!verdict.expected_to_pass)
+      if (!verdict.expected_to_pass && !verdict.finding.lacks_values)
         all.push_back(fmt::format("{}: {}: {}{}", what, verdict_text(verdict), verdict.reason,
                                   problem.empty() ? "" : " (" + problem + ")"));
       else if (!verdict.finding.passed)

@@ -40,6 +40,15 @@ std::optional<double> value_at(const Column& column, double time_s) {
   return value;
 }
 
+bool is_dry_at(const Column& column, double time_s) {
+  if (column.is_dry.empty()) return false;
+  const auto& times = column.time_s;
+  const auto above = static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), time_s) - times.begin());
+  const std::size_t right = std::min(above, times.size() - 1);
+  const std::size_t left = right > 0 && times[right] != time_s ? right - 1 : right;
+  return column.is_dry[left] && column.is_dry[right];
+}
+
 void write_series(std::ostream& out, const TimeSeries& series, const std::vector<double>& times) {
   out << "time_s";
   for (const auto& column : series.columns) out << "," << column.name;

@@ -12,7 +12,9 @@ namespace squall::harness {
 struct Column {
   std::string name, unit;
   std::vector<double> time_s, value;
-  bool is_mean = false;  ///< over a span around its time; beyond the ends the outermost value stands
+  bool is_mean = false;           ///< over a span around its time; beyond the ends the outermost value stands
+  std::string needs = {};         ///< what must be there for it to have a value, for people; empty: nothing
+  std::vector<bool> is_dry = {};  ///< of a pressure at a gauge: it was outside of the water; else empty
 
   void add(double time, double number) {
     time_s.push_back(time);
@@ -32,6 +34,9 @@ struct TimeSeries {
 /// on that of the outermost two, or at the value there if it is a mean. Empty further outside, or where a value is
 /// missing.
 std::optional<double> value_at(const Column& column, double time_s);
+
+/// Whether a gauge was outside of the water at a time: at both samples around it. False for other quantities.
+bool is_dry_at(const Column& column, double time_s);
 
 /// CSV: time_s and a column per quantity at the times [s] given; a cell without a value is empty.
 void write_series(std::ostream& out, const TimeSeries& series, const std::vector<double>& times);

@@ -21,6 +21,7 @@ namespace {
 constexpr double k_pi = std::numbers::pi;
 constexpr int k_modes = 40;  ///< odd ones: their sum is b_n/n^2, so what is left out is below 1e-4 of it
 constexpr double k_step_s = 2e-4;
+constexpr double k_longest_s = 100.0;  ///< 160 MB of history
 
 struct Tank {
   double length, depth, gravity;
@@ -46,6 +47,8 @@ class Modes {
   Modes(const Scene& scene, const Tank& tank) : scene_(scene), tank_(tank), history_(1, Amplitudes{}) {}
 
   Amplitudes at(double time_s) {
+    if (!(time_s <= k_longest_s))
+      throw InputError(fmt::format("formula sloshing is asked for {} s; it goes up to {} s", time_s, k_longest_s));
     const auto index = static_cast<std::size_t>(std::max(0.0, time_s) / k_step_s);
     while (history_.size() < index + 2) grow();
     const double share = std::max(0.0, time_s) / k_step_s - static_cast<double>(index);

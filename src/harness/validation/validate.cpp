@@ -1,8 +1,13 @@
 #include "harness/validation/validate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.h"
+#include "grid.h"
+#include "harness/measures.h"
 #include "harness/validation/observer.h"
 #include "harness/water_warnings.h"
 
@@ -18,15 +23,29 @@ Verdict verdict_of(const Check& check, const CaseRun& run) {
       verdict.reason = failure.reason;
     }
   verdict.finding = judge(check, run.scene, run.series);
-  if (run.error.empty()) return verdict;
+  if (run.error.empty() && run.any_water) return verdict;
   verdict.finding.passed = false;
-  verdict.finding.problem = run.error;
+  if (run.error.empty()) {
+    verdict.finding.lacks_values = true;
+    verdict.finding.error = k_no_value;
+    verdict.finding.points.clear();
+  }
+  verdict.finding.problem = run.error.empty()
+                                ? fmt::format(
+                                      "no particles from 0 to {:.4g} s: nothing was measured; the scene needs a block, "
+                                      "particles, or rain that falls in this time",
+                                      run.simulated_s)
+                                : run.error;
   return verdict;
 }
 
+bool has_water(const State& state) {
+  const auto& positions = state.particles.positions;
+  return std::any_of(positions.begin(), positions.end(), [](const auto& x) { return !is_lost(x.x()); });
+}
+
 int frames_of(const Case& what, const Scene& scene) {
-  constexpr double k_rounding = 1e-9;
-  const double frames = std::ceil(what.duration_s * scene.time.frame_rate_hz - k_rounding);
+  const double frames = std::round(duration_of(what) * scene.time.frame_rate_hz);
   if (!(frames <= 1e7))
     throw InputError("case " + what.name + " asks for more than 10,000,000 samples; lower duration_s");
   return std::max(1, static_cast<int>(frames));
@@ -68,10 +87,12 @@ CaseRun run_case(const Case& what, const Scene& scene, RunPlan plan, const Scene
   Run run(make(plan, scene), plan);
   Observer observer(scene, plan.settings.pressure, what.samples_per_frame);
   observer.add(run.state(), nullptr);
+  result.any_water = has_water(run.state());
   while (!run.done()) {
     run.step();
     if (!run.error().empty()) break;
     observer.add(run.state(), &run.frames().back().report);
+    result.any_water = result.any_water || has_water(run.state());
     if (progress && !progress(static_cast<double>(run.steps_done()) / run.steps_planned())) {
       result.interrupted = !run.done();
       break;

@@ -18,7 +18,8 @@ struct Verdict {
   bool expected_to_pass = true;
   std::string reason;  ///< of an expected failure
 
-  bool as_expected() const { return finding.passed == expected_to_pass; }
+  /// What could not be measured is no failure that a case may expect.
+  bool as_expected() const { return finding.passed == expected_to_pass && !finding.lacks_values; }
 };
 
 /// One solver on one backend in a case's scene.
@@ -26,7 +27,8 @@ struct CaseRun {
   RunPlan plan;
   Scene scene;  ///< as it ran: scaled, frames as short as samples
   SolverInfo solver;
-  std::string error;  ///< why the run ended early: its checks have failed
+  std::string error;       ///< why the run ended early: its checks have failed
+  bool any_water = false;  ///< there was a particle, at the start or after any sample; else nothing was measured
   bool device_failed = false;
   bool interrupted = false;
   std::int64_t particles = 0;

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 #include <vector>
 
 #include "grid.h"
+#include "harness/measures.h"
 #include "harness/present.h"
 #include "harness/water_field.h"
 
@@ -73,7 +73,7 @@ void fill_depths(const Scene& scene, const std::vector<Eigen::Vector3d>& positio
     height += positions[i].y();
   }
   const Eigen::Vector3d size = scene.container_size();
-  water.depth = count > 0.0 ? 2.0 * height / count : 0.0;
+  if (count > 0.0) water.depth = 2.0 * height / count;
   water.filled_depth = count * scene.particle_volume() / (size.x() * size.z());
 }
 
@@ -86,7 +86,7 @@ double distortion_of(const State& state, const Particles& start) {
     if (place != places.end() && !is_lost(state.particles.positions[i].x()))
       moves.push_back(state.particles.positions[i] - place->second);
   }
-  if (moves.empty()) return 0.0;
+  if (moves.empty()) return k_no_value;
   const Eigen::Vector3d common = mean_of(moves);
   double largest = 0.0;
   for (const auto& move : moves) largest = std::max(largest, (move - common).norm());
@@ -102,7 +102,7 @@ Water water_of(const Scene& scene, const State& state, const Particles& start) {
     if (present.is_free(state.particles, i)) positions.push_back(state.particles.positions[i]);
   Water water;
   water.distortion = distortion_of(state, start);
-  water.low = water.high = water.rms = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  water.low = water.high = water.rms = Eigen::Vector3d::Constant(k_no_value);
   if (positions.empty()) return water;
   water.low = water.high = positions.front();
   const Eigen::Vector3d centre = mean_of(positions);

@@ -61,19 +61,46 @@ TEST(StudyErrors, ScalesAreThoseOfEachRun) {
 
 TEST(StudyErrors, OtherTimesOrMissingValuesGiveNone) {
   const Record a = flat_run(0.1);
-  Record shifted = a, shorter = a, missing = a, not_finite = a;
+  Record shifted = a, shorter = a, missing = a, never = a;
   shifted.time_s[3] += 1e-3;
   shorter.time_s.pop_back();
   missing.values.erase("front_m");
-  not_finite.values["front_m"][2] = std::nan("");
+  never.values["front_m"].assign(k_times, std::nan(""));
   EXPECT_FALSE(difference(a, shifted, "y_cm_m"));
   EXPECT_FALSE(difference(a, shorter, "y_cm_m"));
-  for (const Record& lacking : {missing, not_finite}) {
+  for (const Record& lacking : {missing, never}) {
     EXPECT_FALSE(difference(a, lacking, "front_m"));
     EXPECT_FALSE(difference(a, lacking, k_combined_error));
     EXPECT_TRUE(difference(a, lacking, "y_cm_m"));
   }
   EXPECT_FALSE(difference(Record{}, Record{}, "y_cm_m"));
+}
+
+/// Water that falls has no front until it lands, and in one run a frame later than in the other.
+TEST(StudyErrors, AreOverTheTimesAtWhichBothHaveAValue) {
+  Record a = flat_run(0.0), b = flat_run(0.0);
+  for (std::size_t i = 0; i < 4; ++i) a.values["front_m"][i] = std::nan("");
+  for (std::size_t i = 0; i < 5; ++i) b.values["front_m"][i] = std::nan("");
+  const double scale = a.scales["front_m"];
+  a.values["front_m"][4] = 77.0 * scale;  // b has none yet
+  a.values["front_m"][5] = 0.6 * scale;   // one of three
+  EXPECT_NEAR(*difference(a, b, "front_m"), 0.6 / std::sqrt(3.0), k_rounding);
+  EXPECT_NEAR(*difference(a, b, k_combined_error), 0.5 * 0.6 / std::sqrt(3.0), k_rounding) << "of four observables";
+  EXPECT_FALSE(difference(a, b, "front_m", 0.5)) << "until then they have none at the same time";
+  EXPECT_FALSE(difference(a, b, k_combined_error, 0.5));
+}
+
+TEST(StudyErrors, WhatNeitherRunHasIsNoPartOfTheCombinedOne) {
+  Record a = flat_run(0.3), b = flat_run(0.0);
+  for (Record* record : {&a, &b}) record->values["front_m"].assign(k_times, std::nan(""));
+  a.values["x_cm_m"] = b.values["x_cm_m"];  // 0, 0.3 and 0.3 are left
+  EXPECT_NEAR(*difference(a, b, k_combined_error), 0.3 * std::sqrt(2.0 / 3.0), k_rounding);
+  for (const auto& observable : study_observables())
+    for (Record* record : {&a, &b}) record->values[observable.name].assign(k_times, std::nan(""));
+  for (const auto& name : error_names()) {
+    EXPECT_FALSE(difference(a, b, name)) << name;
+    EXPECT_FALSE(size_of(a, name)) << name;
+  }
 }
 
 TEST(StudyErrors, NoiseIsTheStandardDeviation) {

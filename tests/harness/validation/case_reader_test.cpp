@@ -95,6 +95,62 @@ TEST(CaseReader, SaysWhereAndWhatIsWrong) {
               HasSubstr("cases/tank.toml:4:9: cases/gone.toml: not there"));
 }
 
+/// A check of p1 that says what else it is; its tolerance is there.
+std::string message_of_check(const std::string& lines) {
+  return message_of(k_head + "[[check]]\nquantity = 'p1'\ntolerance = 1\ntolerance_why = 'x'\n" + lines);
+}
+
+TEST(CaseReader, RefusesWhatAlwaysPasses) {
+  EXPECT_THAT(message_of_check("like = 'p1'\n"), HasSubstr("cases/tank.toml:9:8: p1 is always like itself"));
+  EXPECT_EQ(message_of_check("like = 'mass_kg'\n"), "no error");
+  EXPECT_THAT(message_of_check("like = ''\n"), HasSubstr("like '' is unknown"));
+  EXPECT_THAT(message_of_check("formula = ''\n"), HasSubstr("formula '' is unknown"));
+  EXPECT_THAT(message_of_check("value = nan\n"), HasSubstr("value"));
+  EXPECT_THAT(message_of(k_head + "[[check]]\nquantity = 'p1'\nvalue = 1\ntolerance = nan\n"), HasSubstr("tolerance"));
+  EXPECT_THAT(message_of(k_head + "[[check]]\nquantity = 'p1'\nvalue = 1\ntolerance = -0.1\n"),
+              HasSubstr("tolerance = -0.1 in [[check]] 1 is out of range"));
+}
+
+TEST(CaseReader, RefusesWhatIsNeverLookedAt) {
+  EXPECT_THAT(message_of_check("value = 1\nto_s = 2.5\n"),
+              HasSubstr("cases/tank.toml:10:8: to_s = 2.5 is after the end of the run, 2 s"));
+  EXPECT_THAT(message_of_check("value = 1\nfrom_s = 3\n"), HasSubstr("from_s = 3 is after the end"));
+  EXPECT_EQ(message_of_check("value = 1\nto_s = 2\n"), "no error");
+  EXPECT_THAT(message_of_check("points = [[0.5, 1], [1, 2]]\nfrom_s = 1.5\n"), HasSubstr("no expected value lies"));
+  EXPECT_THAT(message_of_check("formula = 'ellipsoid'\n"), HasSubstr("without gravity"));
+}
+
+TEST(CaseReader, RefusesMeasuresThatSayNothing) {
+  EXPECT_THAT(message_of_check("value = 1\nmeasure = 'slope'\n"), HasSubstr("measure slope needs expected values"));
+  EXPECT_THAT(message_of_check("points = [[0.5, 1], [1, 1]]\nmeasure = 'line'\n"), HasSubstr("measure line needs"));
+  EXPECT_THAT(message_of_check("points = [[0.5, 1], [1, 2]]\nmeasure = 'period'\n"), HasSubstr("held against value"));
+  EXPECT_THAT(message_of_check("formula = 'start'\nmeasure = 'period'\n"), HasSubstr("held against value"));
+  EXPECT_THAT(message_of_check("value = 0\nrelative = true\n"), HasSubstr("cases/tank.toml:10:12: relative means"));
+  EXPECT_THAT(message_of_check("points = [[0.5, 0], [1, 2]]\nrelative = true\n"), HasSubstr("relative means"));
+  EXPECT_EQ(message_of_check("points = [[0.5, 0], [1, 2]]\nrelative = true\nfrom_s = 0.6\n"), "no error");
+  EXPECT_THAT(message_of_check("points = [[0.5, 1], [1, 2]]\nrelative = true\nmeasure = 'slope'\n"),
+              HasSubstr("relative is no part of measure slope"));
+}
+
+TEST(CaseReader, RefusesPointsOutOfOrder) {
+  EXPECT_THAT(message_of_check("points = [[1, 1],\n  [0.5, 2]]\n"),
+              HasSubstr("cases/tank.toml:10:3: time 0.5 comes after 1; sort the table"));
+  EXPECT_THAT(message_of_check("points = [[1, 1], [1, 2]]\n"), HasSubstr("time 1 is there twice"));
+  EXPECT_THAT(message_of_check("points = [[inf, 1]]\n"), HasSubstr("points must be an array of [time, value]"));
+  EXPECT_THAT(message_of_check("points = []\n"), HasSubstr("points must be an array of [time, value]"));
+  EXPECT_THAT(message_of_check("points = [[1, 1, 2, 3]]\n"),
+              HasSubstr("value 1 must lie between its low (2) and high (3)"));
+}
+
+TEST(CaseReader, TurnsLowAndHighWhereTheScaleIsNegative) {
+  const Case tank = read(k_head +
+                         "[[check]]\nquantity = 'p1'\npoints = [[1, 2, 1, 4]]\nvalue_scale = -1\ntolerance = 1\n"
+                         "tolerance_why = 'x'\n");
+  const ExpectedPoint& point = tank.checks[0].expected.points.at(0);
+  EXPECT_EQ(*point.low, -4.0);
+  EXPECT_EQ(*point.high, -1.0);
+}
+
 TEST(ExpectedTable, RefusesWhatIsNoTable) {
   const auto message = [](const std::string& text) {
     try {
@@ -110,6 +166,13 @@ TEST(ExpectedTable, RefusesWhatIsNoTable) {
   EXPECT_THAT(message("time_s,x\n1,two\n"), HasSubstr("'two' is not a finite number"));
   EXPECT_THAT(message("time_s,x,x\n"), HasSubstr("column 'x' is there twice"));
   EXPECT_THAT(message("time_s,x\n1,\n"), HasSubstr("column 'x' has no value"));
+  EXPECT_THAT(message("time_s,x\n0,1\n0.2,2\n0.1,3\n"), HasSubstr("t.csv:4: time 0.1 comes after 0.2; sort the table"));
+  EXPECT_THAT(message("time_s,x\n0,1\n\n0,2\n"), HasSubstr("t.csv:4: time 0 is there twice"));
+  EXPECT_THAT(message("time_s,x,y\n0,1,2\n1,,3\n1,2,\n"), HasSubstr("t.csv:4: time 1 is there twice"));
+  EXPECT_THAT(message("time_s,x\ninf,1\n"), HasSubstr("t.csv:2: 'inf' is not a finite number"));
+  EXPECT_THAT(message("time_s,x\n0,nan\n"), HasSubstr("t.csv:2: 'nan' is not a finite number"));
+  EXPECT_THAT(message("time_s,x\n0,1 000\n"), HasSubstr("t.csv:2: '1 000' is not a finite number"));
+  EXPECT_THAT(message("time_s,x,x_low\n0,1,2\n"), HasSubstr("t.csv:2: x: value 1 must lie between its low (2)"));
   EXPECT_EQ(message("\xEF\xBB\xBFtime_s, x\r\n# c\r\n1, 2\r\n"), "no error");
 }
 

@@ -119,6 +119,96 @@ TEST(Judge, SaysWhatItCannotJudge) {
             std::string::npos);
 }
 
+/// x_cm_m = 3 m, but without a value from 0.5 s to 0.6 s.
+TimeSeries series_with_gap() {
+  auto series = series_of([](double t) { return t > 0.495 && t < 0.605 ? std::nan("") : 3.0; });
+  series.columns[0].needs = "a particle";
+  return series;
+}
+
+TEST(Judge, WhatHasNoValuePassesNothing) {
+  const auto series = series_with_gap();
+  Expectation points;
+  points.points = {{0.2, 3.0, {}, {}}, {0.555, 3.0, {}, {}}, {1.0, 3.0, {}, {}}};
+  Expectation start;
+  start.formula = "start";
+  for (const auto& expected : {constant(3.0), points, start})
+    for (const Measure measure : {Measure::max, Measure::rms, Measure::mean, Measure::below, Measure::above}) {
+      const Finding found = judge(check_against(expected, measure, 1.0), k_scene, series);
+      EXPECT_FALSE(found.passed) << to_string(measure);
+      EXPECT_TRUE(found.lacks_values);
+      EXPECT_TRUE(std::isnan(found.error));
+      EXPECT_TRUE(std::isnan(found.worst.measured));
+      EXPECT_NE(found.problem.find("x_cm_m has no value at"), std::string::npos) << found.problem;
+      EXPECT_NE(found.problem.find("a particle"), std::string::npos) << found.problem;
+    }
+  Check rest = check_against(constant(3.0), Measure::max, 0.0);
+  rest.from_s = 0.61;
+  EXPECT_TRUE(judge(rest, k_scene, series).passed);
+}
+
+TEST(Judge, LooksAtWhatItShouldBeLikeToo) {
+  auto series = series_of([](double) { return 3.0; });
+  series.columns.push_back(series_with_gap().columns[0]);
+  series.columns[1].name = "y_cm_m";
+  Expectation like;
+  like.like = "y_cm_m";
+  const Finding found = judge(check_against(like, Measure::max, 1.0), k_scene, series);
+  EXPECT_FALSE(found.passed);
+  EXPECT_NE(found.problem.find("y_cm_m, which it should be like, has no value at 11 of 201 times"), std::string::npos)
+      << found.problem;
+}
+
+TEST(Judge, AShiftDoesNotStepOverAGap) {
+  Expectation points;
+  points.points = {{0.52, 3.0, {}, {}}, {0.58, 3.0, {}, {}}};
+  Check check = check_against(points, Measure::max, 1.0);
+  check.largest_shift_s = 0.01;
+  const Finding found = judge(check, k_scene, series_with_gap());
+  EXPECT_FALSE(found.passed);
+  EXPECT_TRUE(found.lacks_values);
+}
+
+TEST(Judge, AGaugeOutsideOfTheWaterChecksNothing) {
+  auto series = series_of([](double) { return 0.0; });
+  series.columns[0].is_dry.assign(series.columns[0].value.size(), true);
+  const Check check = check_against(constant(0.0), Measure::max, 1.0);
+  const Finding dry = judge(check, k_scene, series);
+  EXPECT_FALSE(dry.passed);
+  EXPECT_NE(dry.problem.find("outside of the water from 0 to 2 s"), std::string::npos) << dry.problem;
+  series.columns[0].is_dry[150] = false;  // a wave comes late: until then the air's pressure is the right one
+  EXPECT_TRUE(judge(check, k_scene, series).passed);
+}
+
+TEST(Judge, TheStartAloneIsNoCheck) {
+  const auto series = series_of([](double t) { return t; });
+  Expectation start;
+  start.formula = "start";
+  Check check = check_against(start, Measure::max, 1.0);
+  check.from_s = 2.0;
+  EXPECT_FALSE(judge(check, k_scene, series).passed);
+  check.from_s = 1.99;
+  EXPECT_TRUE(judge(check, k_scene, series).passed);
+}
+
+/// 0 of 0 is no share; it was left out by the comparison that looks for the largest.
+TEST(Judge, NoShareOfNothing) {
+  auto series = series_of([](double) { return 0.0; });
+  series.columns.push_back(series.columns[0]);
+  series.columns[1].name = "y_cm_m";
+  for (double& value : series.columns[1].value) value = 1.0;
+  series.columns[1].value[7] = 0.0;
+  Expectation like;
+  like.like = "y_cm_m";
+  for (const Measure measure : {Measure::max, Measure::rms, Measure::mean, Measure::below, Measure::above}) {
+    Check check = check_against(like, measure, 2.0);
+    check.relative = true;
+    const Finding found = judge(check, k_scene, series);
+    EXPECT_FALSE(found.passed) << to_string(measure);
+    EXPECT_NE(found.problem.find("relative error"), std::string::npos) << found.problem;
+  }
+}
+
 TEST(ValueAt, InterpolatesAndReachesOneIntervalBeyondTheEnds) {
   Column column{"x", "m", {0.0, 1.0, 2.0}, {0.0, 10.0, std::nan("")}, false};
   EXPECT_EQ(value_at(column, 0.25), 2.5);

@@ -59,7 +59,7 @@ TEST(Observer, SumsUpTwoParticles) {
   EXPECT_NEAR(last(series, "x_rms_m"), 0.2, 1e-12);
   EXPECT_NEAR(last(series, "x_max_m"), 0.625, 1e-12);
   EXPECT_NEAR(last(series, "x_min_m"), 0.175, 1e-12);
-  EXPECT_EQ(last(series, "depth_m"), 0.0);  // neither has a neighbour
+  EXPECT_TRUE(std::isnan(last(series, "depth_m")));  // neither has a neighbour
   EXPECT_EQ(last(series, "filled_depth_m"), 0.0);
 }
 
@@ -103,6 +103,35 @@ TEST(Observer, KnowsTheContainersFrame) {
   scene.container.motions.push_back({0.0, 1.0, Eigen::Vector3d(0.3, 0.0, 0.0), {}});
   const TimeSeries series = observed(scene, Pressure::wcsph, 10);
   for (const double value : series.find("wall_force_x_n")->value) EXPECT_NEAR(value, 0.0, 1e-9);
+}
+
+/// Sums of nothing are 0; everything else needs something to be measured of.
+TEST(Observer, GivesNoValueWhereThereIsNothingToMeasure) {
+  Scene scene = test::empty_tank();
+  scene.gauges = {
+      {"p", {0.4, 0.3, 0.2}, "pressure"}, {"v", {0.4, 0.3, 0.2}, "velocity"}, {"l", {0.4, 0, 0.2}, "level"}};
+  const TimeSeries series = observed(scene, Pressure::wcsph, 2);
+  for (const auto& quantity : quantities()) {
+    const double value = last(series, quantity.name);
+    EXPECT_EQ(std::isnan(value), !quantity.needs.empty()) << quantity.name;
+    if (quantity.needs.empty()) {
+      EXPECT_EQ(value, 0.0) << quantity.name;
+    }
+    EXPECT_FALSE(series.find(quantity.name)->value.empty()) << quantity.name;
+  }
+  EXPECT_TRUE(std::isnan(last(series, "v_x")));
+  EXPECT_EQ(last(series, "p"), 0.0);  // the air's
+  EXPECT_EQ(last(series, "l"), 0.0);  // the floor's
+  ASSERT_EQ(series.find("p")->is_dry.size(), series.find("p")->value.size());
+  EXPECT_TRUE(is_dry_at(*series.find("p"), 1.0 / 60));
+}
+
+TEST(Observer, KnowsWhenAPressureGaugeStandsInWater) {
+  Scene scene = small_tank(4);
+  scene.gauges = {{"low", {0.1, 0.0, 0.1}, "pressure"}, {"high", {0.1, 0.55, 0.1}, "pressure"}};
+  const TimeSeries series = observed(scene, Pressure::dfsph, 2);
+  EXPECT_FALSE(is_dry_at(*series.find("low"), 0.02));
+  EXPECT_TRUE(is_dry_at(*series.find("high"), 0.02));
 }
 
 TEST(QuantityNames, RefuseAGaugeCalledLikeAQuantity) {
