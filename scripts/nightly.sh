@@ -71,6 +71,7 @@ part_validate() {
   local switches=()
   build_squall
   ! in_trial "fine scenes of validate" || switches=(--quick)
+  rm -rf "$out/validate"
   "$squall" validate "${switches[@]}" --out "$out/validate"
 }
 
@@ -78,6 +79,7 @@ part_sweep() {
   local switches=()
   build_squall
   ! in_trial "large sizes of sweep" || switches=(--particles "500,1000" --frames 5)
+  rm -rf "$out/sweep"
   "$squall" sweep scenes/collapse.toml "${switches[@]}" --out "$out/sweep"
 }
 

@@ -122,8 +122,8 @@ int command_study(const Options& options) {
   });
   if (!options.out.empty()) {
     harness::require_gnuplot();
-    folder.emplace(options.out);
-    for (auto& record : folder->earlier_runs()) records.put(std::move(record));
+    folder.emplace(options.out, result.scene);
+    for (auto& record : folder->take_earlier_runs()) records.put(std::move(record));
   }
   check_targets(options);
   result.runs = measure(result, options, interrupt, records);

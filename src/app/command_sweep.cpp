@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/earlier_results.h"
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
 #include "app/notes.h"
@@ -138,6 +139,7 @@ int command_sweep(const Options& options) {
                  options.out.empty() ? std::vector<std::filesystem::path>{} : SweepFolder::own_files(options.out));
   if (!options.out.empty()) {
     harness::require_gnuplot();
+    refuse_other_results(options.out, "sweep", {subject_of(workload.info)});
     folder.emplace(options.out);
   }
   check_targets(options);

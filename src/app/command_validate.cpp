@@ -10,6 +10,7 @@
 
 #include "app/builtin_cases.h"
 #include "app/commands.h"
+#include "app/earlier_results.h"
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
 #include "app/notes.h"
@@ -134,6 +135,12 @@ void protect_cases(const Options& options, const Jobs& jobs) {
   protect_inputs(options, std::move(inputs), out_files);
 }
 
+std::vector<Subject> subjects_of(const std::vector<harness::CaseResult>& results) {
+  std::vector<Subject> subjects;
+  for (const auto& result : results) subjects.push_back(subject_of(result.what.name, result.what.scene.name));
+  return subjects;
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -204,6 +211,7 @@ int command_validate(const Options& options) {
   std::optional<ValidationFolder> folder;
   if (!options.out.empty()) {
     harness::require_gnuplot();
+    refuse_other_results(options.out, "validate", subjects_of(jobs.results));
     folder.emplace(options.out);
   }
   check_targets(options);

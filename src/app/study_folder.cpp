@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "app/earlier_results.h"
 #include "core/errors.h"
 #include "core/text_file.h"
 #include "harness/report/gnuplot.h"
@@ -13,8 +14,6 @@ namespace squall::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* k_runs = "runs.jsonl";
 
 void check(const std::ofstream& file, const fs::path& path) {
   if (!file) throw InputError(path.string() + ": cannot write this file; check the folder's rights and free space");
@@ -37,52 +36,64 @@ std::string file_stem(const std::string& name) {
   return stem;
 }
 
+harness::SceneInfo scene_info(const harness::Json& json) {
+  return {json.at("name"), json.at("hash"), json.at("particles")};
+}
+
 }  // namespace
 
 std::vector<fs::path> StudyFolder::own_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const char* name :
-       {"report.html", "study.csv", "study.json", k_runs, "work_precision.svg", "step_error.svg", "separation.svg"})
+  for (const char* name : {"report.html", "study.csv", "study.json", k_runs_file, "work_precision.svg",
+                           "step_error.svg", "separation.svg"})
     files.push_back(folder / name);
   return files;
 }
 
-StudyFolder::StudyFolder(const std::string& path) : path_(path) {
+StudyFolder::StudyFolder(const std::string& path, const harness::SceneInfo& scene) : path_(path), scene_(scene) {
+  read_runs();
+  refuse_other_results(path, "study", {subject_of(scene)});
   make_folder(path_);
   make_folder(path_ / "scenes");
+  open_runs();
 }
 
-std::vector<harness::Record> StudyFolder::earlier_runs() {
-  const fs::path file = path_ / k_runs;
-  std::vector<harness::Record> records;
-  std::string whole;
+void StudyFolder::read_runs() {
+  const fs::path file = path_ / k_runs_file;
   std::error_code error;
-  if (fs::exists(file, error)) {
-    std::string_view rest;
-    const std::string text = read_text_file(file.string());
-    rest = text;
-    std::size_t line = 0;
-    for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
-      ++line;
-      try {
-        records.push_back(harness::record_from_json(harness::Json::parse(rest.substr(0, end))));
-      } catch (const std::exception& problem) {
-        throw InputError(fmt::format("{}:{}: cannot be gone on with: {}; name another --out or remove this file",
-                                     file.string(), line, problem.what()));
-      }
-      rest.remove_prefix(end + 1);
+  if (!fs::exists(file, error)) return;
+  const std::string text = read_text_file(file.string());
+  std::string_view rest = text;
+  std::size_t line = 0;
+  for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+    ++line;
+    harness::SceneInfo studied = scene_;
+    try {
+      const auto json = harness::Json::parse(rest.substr(0, end));
+      earlier_.push_back(harness::record_from_json(json));
+      if (json.contains("study")) studied = scene_info(json.at("study"));
+    } catch (const std::exception& problem) {
+      throw InputError(fmt::format("{}:{}: cannot be gone on with: {}; name another --out or remove this file",
+                                   file.string(), line, problem.what()));
     }
-    whole = text.substr(0, text.size() - rest.size());
-    if (!rest.empty()) write(k_runs, whole);  // a line without its end was cut off
+    refuse_other_study(path_.string(), subject_of(studied), subject_of(scene_));
+    rest.remove_prefix(end + 1);
   }
+  if (!rest.empty()) whole_runs_ = text.substr(0, text.size() - rest.size());
+}
+
+void StudyFolder::open_runs() {
+  const fs::path file = path_ / k_runs_file;
+  if (whole_runs_) write(k_runs_file, *whole_runs_);  // a line without its end was cut off
   runs_.open(file, std::ios::app | std::ios::binary);
   check(runs_, file);
-  return records;
 }
 
 void StudyFolder::keep(const harness::Record& record) {
-  runs_ << harness::to_json(record).dump() << "\n" << std::flush;
-  check(runs_, path_ / k_runs);
+  auto json = harness::to_json(record);
+  json["study"] = {{"name", scene_.name}, {"hash", scene_.hash}, {"particles", scene_.particles}};
+  runs_ << json.dump() << "\n" << std::flush;
+  check(runs_, path_ / k_runs_file);
 }
 
 std::string StudyFolder::write_scene(const std::string& name, const Scene& scene, Pressure pressure) {

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/study/study_report.h"
@@ -13,14 +15,15 @@ namespace squall::app {
 /// again), scenes/ (a scene file per setting), report.html, a file per plot, study.csv and study.json. Made if missing.
 class StudyFolder {
  public:
-  /// Throws InputError for what cannot be written.
-  explicit StudyFolder(const std::string& path);
+  /// Throws InputError, before anything is touched, for a folder that holds the study of another scene, the results of
+  /// another command, or runs of another kind; and for what cannot be written.
+  StudyFolder(const std::string& path, const harness::SceneInfo& scene);
 
   /// Paths in this folder that are the names above, whether there or not; of scenes none.
   static std::vector<std::filesystem::path> own_files(const std::filesystem::path& folder);
 
-  /// Runs of earlier starts; a line that was cut off is left out. Throws InputError for a file of another kind.
-  std::vector<harness::Record> earlier_runs();
+  /// Runs of earlier starts; a line that was cut off is left out.
+  std::vector<harness::Record> take_earlier_runs() { return std::move(earlier_); }
 
   /// Adds a run at once, so that it is there whatever happens later.
   void keep(const harness::Record& record);
@@ -32,9 +35,14 @@ class StudyFolder {
   void finish(const harness::StudyResult& result);
 
  private:
+  void read_runs();
+  void open_runs();
   void write(const std::filesystem::path& name, const std::string& text) const;
 
   std::filesystem::path path_;
+  harness::SceneInfo scene_;
+  std::vector<harness::Record> earlier_;
+  std::optional<std::string> whole_runs_;  ///< what earlier_ was read from, where a line behind it was cut off
   std::ofstream runs_;
 };
 

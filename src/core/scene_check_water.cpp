@@ -74,7 +74,8 @@ Checks::Origin Checks::origin_of(std::size_t index) const {
     index -= count;
   }
   std::size_t file = 0;
-  while (index >= scene_.particle_files[file].particles.size()) index -= scene_.particle_files[file++].particles.size();
+  while (index >= scene_.particle_files[file].particles.positions.size())
+    index -= scene_.particle_files[file++].particles.positions.size();
   const Scene::ParticleFile& from = scene_.particle_files[file];
   return {file + 1, "particle " + std::to_string(index + 1) + " of '" + from.file + "' at " +
                         vector_text(from.particles.positions[index])};

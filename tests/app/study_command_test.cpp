@@ -119,6 +119,14 @@ TEST(StudyCommand, ABudgetThatNothingKeepsIsExitSeven) {
   EXPECT_TRUE(json::parse(outcome.out)["recommendation"]["best_within_budget"].is_null());
 }
 
+/// The folder's files, each with what it holds.
+std::map<std::string, std::string> files_in(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[entry.path().string()] = text_of(entry.path().string());
+  return files;
+}
+
 /// A scene with this beside the box of k_dry.
 const std::string k_dry =
     "schema = 1\n[time]\nduration_s = 1.0\n[fluid]\nspacing_m = 0.1\n[container]\nmin_m = [0, 0, 0]\n"
@@ -154,6 +162,37 @@ TEST(StudyCommand, WithoutASingleErrorItDoesNotEndWell) {
   EXPECT_NE(front.out.find("no value"), std::string::npos) << front.out;
   EXPECT_NE(front.out.find("no setting has both a time and the front_m error"), std::string::npos) << front.out;
   EXPECT_NE(text_of(folder / "out/report.html").find("no front_m error"), std::string::npos);
+}
+
+TEST(StudyCommand, AFolderOfAnotherSceneIsLeftAlone) {
+  const TemporaryFolder folder;
+  const auto here = with(k_study, {"--out", folder / "out"});
+  ASSERT_EQ(squall(here).code, 0);
+  const auto before = files_in(folder / "out");
+  const std::string scene = text_of(k_tiny);
+  std::ofstream(folder / "other.toml") << scene << "\n[gravity]\nvector_m_s2 = [0, -5, 0]\n";
+  auto other = here;
+  other[1] = folder / "other.toml";
+  const auto refused = [&](const std::vector<std::string>& arguments) {
+    const Outcome outcome = squall(arguments);
+    EXPECT_EQ(outcome.code, 3) << outcome.out;
+    for (const std::string& text : {folder / "out", std::string("scene tiny"), std::string("name another --out")})
+      EXPECT_NE(outcome.err.find(text), std::string::npos) << outcome.err;
+  };
+  refused(other);
+  refused(with(here, {"--particles", "300"}));
+  refused({"sweep", k_tiny, "--backend", "omp", "--particles", "70", "--frames", "2", "--out", folder / "out"});
+  refused({"validate", "free_fall", "--quick", "--out", folder / "out"});
+  EXPECT_EQ(files_in(folder / "out"), before);
+  std::filesystem::remove(folder / "out/study.json");  // killed before its end, which only its runs tell
+  refused(other);
+  refused({"sweep", k_tiny, "--backend", "omp", "--particles", "70", "--frames", "2", "--out", folder / "out"});
+  std::filesystem::copy(k_tiny, folder / "copy.toml");  // the same water under another name
+  auto copy = here;
+  copy[1] = folder / "copy.toml";
+  const Outcome resumed = squall(with(copy, {"--json", "-"}));
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(json::parse(resumed.out)["measured"]["runs_from_before"], lines_in(text_of(folder / "out/runs.jsonl")));
 }
 
 TEST(StudyCommand, WhatCannotBeStudiedIsRefused) {

@@ -142,6 +142,24 @@ TEST(SweepCommand, SizesThatNoFrameHasRoomForEndIt) {
   EXPECT_EQ(sweep("64").code, 3);
 }
 
+TEST(SweepCommand, AFolderOfAnotherSceneIsLeftAlone) {
+  const TemporaryFolder folder;
+  const auto sweep = [&](const std::string& scene, const std::string& sizes) {
+    return squall({"sweep", scene, "--backend", "omp", "--threads", "1", "--particles", sizes, "--frames", "2", "--out",
+                   folder / "out"});
+  };
+  ASSERT_EQ(sweep(k_tiny, "70").code, 0);
+  const std::string before = text_of(folder / "out/sweep.json"), page = text_of(folder / "out/report.html");
+  std::ofstream(folder / "other.toml") << text_of(k_tiny) << "\n[gravity]\nvector_m_s2 = [0, -5, 0]\n";
+  const Outcome other = sweep(folder / "other.toml", "70");
+  EXPECT_EQ(other.code, 3);
+  EXPECT_NE(other.err.find("holds what `squall sweep` found of scene tiny"), std::string::npos) << other.err;
+  EXPECT_EQ(text_of(folder / "out/sweep.json"), before);
+  EXPECT_EQ(text_of(folder / "out/report.html"), page);
+  EXPECT_EQ(sweep(k_tiny, "70,400").code, 0) << "one's own sweep is replaced";
+  EXPECT_EQ(json::parse(text_of(folder / "out/sweep.json"))["points"].size(), 2u);
+}
+
 TEST(SweepCommand, ADeviceAskedForThatIsNotThereEndsIt) {
   const Environment no_opencl{{"OCL_ICD_VENDORS", "/no/such/folder"}, {"OCL_ICD_FILENAMES", ""}};
   EXPECT_EQ(squall({"sweep", k_tiny, "--backend", "opencl", "--particles", "70"}, no_opencl).code, 4);

@@ -161,6 +161,25 @@ TEST_F(ValidateCommand, WritesPlotsSeriesAndAPage) {
   EXPECT_TRUE(Json::parse(text_of(path("out/validate.json"))).contains("cases"));
 }
 
+TEST_F(ValidateCommand, LeavesTheFolderOfOtherCasesAlone) {
+  write_case("formula = 'ballistic'\ntolerance = 1e-5\n");
+  write("second.toml", text_of(path("case.toml")));
+  const auto run = [&](std::vector<std::string> cases) {
+    cases.insert(cases.end(), {"--pressure", "wcsph", "--out", path("out"), "--quiet"});
+    return validate(cases);
+  };
+  ASSERT_EQ(run({path("case.toml")}).code, 0);
+  const std::string before = text_of(path("out/validate.json")), page = text_of(path("out/report.html"));
+  const Outcome other = run({path("second.toml")});
+  EXPECT_EQ(other.code, 3);
+  EXPECT_THAT(other.err, HasSubstr("holds what `squall validate` found of case case (scene fall)"));
+  EXPECT_EQ(text_of(path("out/validate.json")), before);
+  EXPECT_EQ(text_of(path("out/report.html")), page);
+  EXPECT_FALSE(std::filesystem::exists(path("out/second_wcsph_omp.csv")));
+  EXPECT_EQ(run({path("case.toml"), path("second.toml")}).code, 0) << "nothing is lost";
+  EXPECT_EQ(run({path("case.toml")}).code, 3) << "second would be";
+}
+
 TEST_F(ValidateCommand, SaysWhichSolvesEndedAtTheirLimit) {
   std::string scene = text_of(path("fall.toml"));
   scene.replace(scene.find("min_m = [0.3, 0.6"), 0, "velocity_m_s = [0, -9, 0]\n");  // onto the floor
