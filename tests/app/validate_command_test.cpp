@@ -101,6 +101,8 @@ TEST_F(ValidateCommand, RefusesTablesOutOfOrder) {
   };
   refused("time_s,y_cm_m\n0.2,0.5\n0,0.75\n", "table.csv:3: time 0 comes after 0.2; sort the table");
   refused("time_s,y_cm_m\n0,0.75\n0,0.75\n", "table.csv:3: time 0 is there twice");
+  refused("time_s,y_cm_m\n0,0\n0.1,0\n", "column 'y_cm_m' is 0 throughout");
+  refused("time_s,y_cm_m\n1e9,1\n", "asks for 1e+09 s of water");
   refused("time_s,y_cm_m\n-1,0.75\n", "time_s = -1 is before the start of the run");
   for (const char* tolerance : {"-1", "nan", "inf"}) {
     write("table.csv", "time_s,y_cm_m\n0,0.75\n");

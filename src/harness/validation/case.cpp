@@ -95,9 +95,14 @@ Case case_from_table(const std::string& scene_path, const std::string& table_pat
       largest = std::max(largest, std::abs(point.value));
       latest = std::max(latest, point.time_s);
     }
-    if (largest > 0.0) check.scale = largest;
+    if (!(largest > 0.0))
+      throw InputError(
+          fmt::format("{}: column '{}' is 0 throughout, and a share of that no tolerance; write a case with a "
+                      "tolerance in its unit (docs/validation.md)",
+                      table_path, name));
+    check.scale = largest;
     check.tolerance = tolerance;
-    check.tolerance_why = largest > 0.0 ? "as given, of the column's largest value" : "as given; the column is 0";
+    check.tolerance_why = "as given, of the column's largest value";
     result.checks.push_back(std::move(check));
   }
   result.duration_s = latest;

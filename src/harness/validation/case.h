@@ -82,7 +82,7 @@ Case parse_case(const std::string& text, const std::string& path, const FileRead
 Case load_case(const std::string& path);
 
 /// A case from a scene and a table of expected values, both files: a check per column, the rms difference over the
-/// column's largest value (over 1 where that is 0), which may be at most `tolerance`. It runs as long as the table
+/// column's largest value, which may be at most `tolerance`. It runs as long as the table
 /// says, whose times begin at 0. Throws InputError like load_case().
 Case case_from_table(const std::string& scene_path, const std::string& table_path, double tolerance);
 

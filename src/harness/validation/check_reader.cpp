@@ -193,7 +193,7 @@ void read_span(TableReader& reader, Check& check, const Case& of) {
 }
 
 /// Measures that could say nothing, whatever the water does.
-void refuse_idle_measures(const TableReader& reader, const Check& check) {
+void refuse_idle_measures(const TableReader& reader, const Check& check, const Scene& scene) {
   const auto& expected = check.expected;
   const bool is_line = check.measure == Measure::slope || check.measure == Measure::line;
   const auto points = counted_points(check);
@@ -204,6 +204,10 @@ void refuse_idle_measures(const TableReader& reader, const Check& check) {
                                        to_string(check.measure)));
   if (is_line && check.relative)
     reader.fail("relative", fmt::format("relative is no part of measure {}; leave it out", to_string(check.measure)));
+  const std::string unit = unit_of(scene, check.quantity), like = unit_of(scene, expected.like);
+  if (!expected.like.empty() && !is_line && like != unit)
+    reader.fail("like", fmt::format("{} [{}] and {} [{}] have no difference; measures slope and line compare them",
+                                    check.quantity, unit, expected.like, like));
   if (check.measure == Measure::period && !expected.value && (expected.formula.empty() || expected.formula == "start"))
     reader.fail("measure", "measure period is held against value or a formula that gives a period");
   const bool any_zero = std::any_of(points.begin(), points.end(), [](const auto& point) { return point.value == 0.0; });
@@ -250,7 +254,7 @@ Check read_check(TableReader& reader, const Case& of, const CaseFiles& files) {
   read_like(reader, check, of.scene);
   read_span(reader, check, of);
   read_measure(reader, check);
-  refuse_idle_measures(reader, check);
+  refuse_idle_measures(reader, check, of.scene);
   read_formula(reader, check, of);
   read_failures(reader, check, of);
   return check;

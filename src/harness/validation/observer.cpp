@@ -110,6 +110,15 @@ const std::vector<Quantity>& quantities() {
   return all;
 }
 
+std::string unit_of(const Scene& scene, const std::string& quantity) {
+  for (const auto& known : quantities())
+    if (known.name == quantity) return known.unit;
+  const Gauges gauges(scene, Pressure::wcsph);
+  for (const auto& column : gauges.columns())
+    if (column.name == quantity) return column.unit;
+  return "";
+}
+
 std::vector<std::string> quantity_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& quantity : quantities()) names.push_back(quantity.name);

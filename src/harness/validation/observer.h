@@ -26,6 +26,9 @@ struct Quantity {
 /// All of them; lengths are relative to the container's min corner and in its frame (docs/validation.md).
 const std::vector<Quantity>& quantities();
 
+/// Unit of a quantity or of a column of the scene's gauges; empty for another name.
+std::string unit_of(const Scene& scene, const std::string& quantity);
+
 /// Names that checks of a scene may use: quantities() and the columns of its gauges. Throws InputError for a gauge that
 /// is called like a quantity or a part of another gauge.
 std::vector<std::string> quantity_names(const Scene& scene);

@@ -47,7 +47,10 @@ bool has_water(const State& state) {
 int frames_of(const Case& what, const Scene& scene) {
   const double frames = std::round(duration_of(what) * scene.time.frame_rate_hz);
   if (!(frames <= 1e7))
-    throw InputError("case " + what.name + " asks for more than 10,000,000 samples; lower duration_s");
+    throw InputError(
+        fmt::format("case {} asks for {:g} s of water, more than 10,000,000 samples; lower duration_s, or the "
+                    "last time of its table",
+                    what.name, what.duration_s));
   return std::max(1, static_cast<int>(frames));
 }
 

@@ -102,7 +102,8 @@ std::string message_of_check(const std::string& lines) {
 
 TEST(CaseReader, RefusesWhatAlwaysPasses) {
   EXPECT_THAT(message_of_check("like = 'p1'\n"), HasSubstr("cases/tank.toml:9:8: p1 is always like itself"));
-  EXPECT_EQ(message_of_check("like = 'mass_kg'\n"), "no error");
+  EXPECT_EQ(message_of_check("like = 'mass_kg'\nmeasure = 'slope'\n"), "no error");
+  EXPECT_THAT(message_of_check("like = 'mass_kg'\n"), HasSubstr("p1 [Pa] and mass_kg [kg] have no difference"));
   EXPECT_THAT(message_of_check("like = ''\n"), HasSubstr("like '' is unknown"));
   EXPECT_THAT(message_of_check("formula = ''\n"), HasSubstr("formula '' is unknown"));
   EXPECT_THAT(message_of_check("value = nan\n"), HasSubstr("value"));
