@@ -49,9 +49,10 @@ def rain_on(squall, scene, minutes, pressure, out):
 
 
 def columns(path):
+    """The numbers of a CSV file by column; NaN for a cell without a value: lengths, before the first drop."""
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
-    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+    return {name: [float(row[name] or "nan") for row in rows] for name in rows[0]}
 
 
 def total_energy(series, i):

@@ -61,8 +61,7 @@ void require_water(const Scene& scene, int frames) {
   for (const auto& observable : study_observables()) names.push_back(observable.name);
   throw InputError(
       fmt::format("{}: there is no particle in the {:.4g} s that would be studied, so {} have no value and no setting "
-                  "an error; the "
-                  "scene needs a [[block]], [[particles]], or [[rain]] that falls by then (--seconds)",
+                  "an error; the scene needs a [[block]], [[particles]], or [[rain]] that falls by then (--seconds)",
                   scene.name, frames / scene.time.frame_rate_hz, fmt::join(names, ", ")));
 }
 

@@ -163,6 +163,7 @@ Finding judge(const Check& check, const Scene& scene, const TimeSeries& series) 
   Finding finding;
   finding.tolerance = tolerance_of(check, scene.fluid.spacing_m);
   finding.error = k_no_value;
+  finding.lacks_values = true;
   const Column* measured = series.find(check.quantity);
   if (measured == nullptr) {
     finding.problem = check.quantity + " was not measured";

@@ -112,6 +112,7 @@ TEST(Judge, SaysWhatItCannotJudge) {
   Check nowhere = check_against(constant(0.0), Measure::max, 1.0);
   nowhere.from_s = 3.0;
   EXPECT_FALSE(judge(nowhere, k_scene, series).passed);
+  EXPECT_TRUE(judge(nowhere, k_scene, series).lacks_values);
   Check zero = check_against(constant(0.0), Measure::max, 1.0);
   zero.relative = true;
   EXPECT_NE(judge(zero, k_scene, series).problem.find("relative error"), std::string::npos);
