@@ -100,7 +100,7 @@ struct Scene {
   double particle_volume() const { return fluid.spacing_m * fluid.spacing_m * fluid.spacing_m; }  ///< dx^3 [m^3]
   double particle_mass() const { return fluid.rest_density_kg_m3 * particle_volume(); }  ///< m = rho0 dx^3 [kg]
   Eigen::Vector3d container_size() const { return container.max_m - container.min_m; }   ///< [m]
-  double fluid_depth() const;  ///< D [m]: top of the highest block above the floor, or the container's height
+  double fluid_depth() const;    ///< D [m]: top of the highest block above the floor, or the container's height
   double fastest_start() const;  ///< largest start velocity of a block or a particle of a file [m/s]
   /// Speed [m/s] the water will reach, > 0: that of a fall through its own depth; without gravity that of the fastest
   /// start; 1 m/s where nothing moves.

@@ -80,8 +80,8 @@ struct Row {
   std::optional<double> light_pass_ns;  ///< wall clock per particle and light pass, where they are timed
   double density_error_mean = 0.0;
   double density_error_max = 0.0;
-  double density_error_worst = 0.0;  ///< largest mean of a frame
-  double density_tolerance = 0.0;    ///< of the scene, for dfsph
+  double density_error_worst = 0.0;    ///< largest mean of a frame
+  double density_tolerance = 0.0;      ///< of the scene, for dfsph
   std::optional<double> energy_drift;  ///< (E - E_in)/|E_in|; empty if there is no energy to compare with
   std::int64_t clamps = 0;
   std::int64_t lost_particles = 0;

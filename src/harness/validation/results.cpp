@@ -190,8 +190,7 @@ std::vector<std::string> remarks(const CaseResult& result) {
         all.push_back(fmt::format("{}: FAILS{}", what, problem.empty() ? "" : ": " + problem));
     }
   for (const auto& run : result.runs)
-    for (const auto& warning : run.warnings)
-      all.push_back(fmt::format("{}: {}", run_name(run), warning));
+    for (const auto& warning : run.warnings) all.push_back(fmt::format("{}: {}", run_name(run), warning));
   return all;
 }
 

@@ -34,7 +34,7 @@ struct CaseRun {
   std::int64_t particles = 0;
   double simulated_s = 0.0, wall_s = 0.0, iterations_mean = 0.0;
   std::int64_t steps = 0, clamps = 0;
-  std::int64_t unconverged = 0;  ///< solves that ended at max_iterations above their tolerance
+  std::int64_t unconverged = 0;       ///< solves that ended at max_iterations above their tolerance
   std::vector<std::string> warnings;  ///< of water that is denser than asked for
   TimeSeries series;
   std::vector<Verdict> verdicts;  ///< one per check of the case
