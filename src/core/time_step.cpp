@@ -16,9 +16,20 @@ namespace {
 using scene_keys::number_text;
 
 /// Explicit viscosity is stable for dt < 2/lambda_max; on a lattice at H = 2dx lambda_max is 15.8 nu/H^2 for Müller's
-/// Laplacian and 58.9 nu/H^2 for the central form of wcsph and dfsph, whose force along the line of centres is five
-/// times as stiff (docs/physics.md). A tenth is left for other arrangements.
-double viscous_factor(Pressure pressure) { return pressure == Pressure::mueller ? 0.1 : 0.03; }
+/// Laplacian, 58.4 nu/H^2 for the central form of wcsph, which acts along the line of centres, and 54.1 nu/H^2 for that
+/// of dfsph (docs/physics.md). The rest is for water that is denser than a lattice (docs/stress.md): wcsph's, above
+/// all.
+double viscous_factor(Pressure pressure) {
+  switch (pressure) {
+    case Pressure::mueller:
+      return 0.1;
+    case Pressure::wcsph:
+      return 0.025;
+    case Pressure::dfsph:
+      break;
+  }
+  return 0.03;
+}
 
 /// What alpha of artificial viscosity amounts to: alpha (H/2) c/(2(d + 2)), d = 3 [m^2/s].
 double artificial_part(const Scene& scene, Pressure pressure, double alpha) {

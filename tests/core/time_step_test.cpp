@@ -36,7 +36,7 @@ TEST(TimeStepLimit, IsTheSmallestOfItsTerms) {
   scene.fluid.viscosity_m2_s = 10;
   EXPECT_NEAR(time_step_limit(scene, Pressure::mueller, 0), 0.1 * 0.01 / 10, tolerance);
   // The central form of wcsph is stiffer, and artificial viscosity adds 0.1 x 0.05 m x 20 m/s / 10.
-  EXPECT_NEAR(time_step_limit(scene, Pressure::wcsph, 0), 0.03 * 0.01 / (10 + 0.01), tolerance);
+  EXPECT_NEAR(time_step_limit(scene, Pressure::wcsph, 0), 0.025 * 0.01 / (10 + 0.01), tolerance);
   scene.fluid.viscosity_m2_s.reset();
   scene.solver.dt_max_s = 1e-3;
   EXPECT_EQ(time_step_limit(scene, Pressure::wcsph, 0), 1e-3);
@@ -108,7 +108,7 @@ struct Growing {
 
 double allowed_viscosity(const Scene& scene, Pressure pressure) {
   const double support = scene.support_radius(), shortest = 1.0 / 60 / k_max_substeps;
-  const double factor = pressure == Pressure::mueller ? 0.1 : 0.03;
+  const double factor = pressure == Pressure::mueller ? 0.1 : pressure == Pressure::wcsph ? 0.025 : 0.03;
   const double artificial = pressure == Pressure::wcsph ? 0.1 * support / 2 * scene.speed_of_sound() / 10 : 0.0;
   return factor * support * support / shortest - artificial;
 }
@@ -158,7 +158,7 @@ const std::vector<Growing> k_growing = {
      [](Scene& scene, double value) { scene.solver.artificial_viscosity = value; },
      [](const Scene& scene, Pressure) {
        const double support = scene.support_radius();
-       return 0.03 * support * support * 60 * k_max_substeps / (0.05 * support * scene.speed_of_sound());
+       return 0.025 * support * support * 60 * k_max_substeps / (0.05 * support * scene.speed_of_sound());
      },
      "stiffness"},
 };

@@ -34,5 +34,25 @@ TEST_P(Viscosity, OfSyrupCalmsRandomMotion) {
   EXPECT_LT(end, 0.1 * start);
 }
 
+// A collapse of pitch: steps as long as viscosity allows leave nothing that rings. What does shows as accelerations,
+// and the plan shortens its steps for them: with dt <= 0.03 H^2/nu to the least there is, from the twentieth frame on.
+TEST(ViscosityOfWcsph, LeavesNothingThatRings) {
+  Scene scene = empty_tank();
+  scene.container.max_m = {0.9, 1.2, 0.5};
+  scene.container.open_top = true;
+  scene.fluid.viscosity_m2_s = 2.0;
+  scene.solver.speed_of_sound_m_s = 20.0;
+  Scene::Block block;
+  block.min_m = {0.0, 0.0, 0.0};
+  block.max_m = {0.5, 0.7, 0.5};
+  scene.blocks.push_back(block);
+  Settings settings;
+  settings.pressure = Pressure::wcsph;
+  const auto solver = make_solver("omp", scene, settings);
+  solver->load(initial_particles(scene));
+  const auto viscous = static_cast<int>(substeps_needed(scene, Pressure::wcsph, 0.0));
+  for (int frame = 0; frame < 24; ++frame) EXPECT_EQ(solver->advance().substeps, viscous) << "frame " << frame;
+}
+
 }  // namespace
 }  // namespace squall::test
