@@ -4,20 +4,21 @@
 #   soak       heavy rain under a memory limit; lost particles, energy, level and memory watched (scripts/soak.py)
 #   rest       still water for a million sub-steps
 #   stress     squall stress, every case on every backend
+#   steps      squall stress --largest-step: where every pressure solver becomes unstable, and how far squall stays from it
 #   validate   squall validate, every case
 #   sweep      squall sweep on collapse, with plots
 #   bits       collapse, 120 frames: one hash on every backend, width and number of threads
 #   property   random scenes that nobody has tried yet, under sanitizers
 #   fuzz       the fuzzers, longer
 # SQUALL_NIGHTLY_MINUTES: of soak for each pressure solver and of fuzz for each target, 30. Smaller for a trial; with 2 or less rest,
-# stress, validate, sweep and bits are tried, too, in a shorter form.
+# stress, steps, validate, sweep and bits are tried, too, in a shorter form.
 # Every part is run, whatever fails; the exit code is 1 if one did. What it writes lies in build/nightly.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
 source scripts/parts.sh
 
-parts="tidy soak rest stress validate sweep bits property fuzz"
+parts="tidy soak rest stress steps validate sweep bits property fuzz"
 minutes=${SQUALL_NIGHTLY_MINUTES:-30}
 [[ $minutes =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "SQUALL_NIGHTLY_MINUTES='$minutes' is no number of minutes"
 squall=build/release/src/app/squall
@@ -65,6 +66,13 @@ part_stress() {
   build_squall
   ! in_trial "the long cases of stress" || switches=(--quick --backend omp)
   "$squall" stress "${switches[@]}" --json "$out/stress.json"
+}
+
+part_steps() {
+  local switches=()
+  build_squall
+  ! in_trial "most settings of steps" || switches=(--quick)
+  "$squall" stress --largest-step "${switches[@]}" --json "$out/largest_step.json"
 }
 
 part_validate() {

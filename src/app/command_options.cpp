@@ -119,7 +119,13 @@ CLI::App* add_stress(CLI::App& app, Options& options, RawOptions& raw) {
       ->type_name("DEVICE");
   list(add(*stress, "--threads", options.threads, "Thread counts (all)"), "N[,N]")->check(CLI::Range(1, 1024));
   add_solver_options(*stress, raw);
-  list(add(*stress, "--case", options.case_numbers, "Only these, by number (all)"), "N[,N]")->check(CLI::Range(1, 34));
+  CLI::Option* cases = list(add(*stress, "--case", options.case_numbers, "Only these, by number (all)"), "N[,N]");
+  cases->check(CLI::Range(1, 34));
+  stress
+      ->add_flag("--largest-step", options.largest_step,
+                 "Instead of the cases, the largest stable time step per solver, stiffness, viscosity and precision, "
+                 "beside theory and what squall takes (omp with one thread)")
+      ->excludes(cases);
   stress->add_flag("--quick", options.quick, "Shorter runs, without the longest cases")->envname("SQUALL_QUICK");
   add_output_options(*stress, options);
   add_later_options(*stress);

@@ -63,6 +63,7 @@ int exit_code(const std::vector<harness::StressResult>& results, const Interrupt
 }  // namespace
 
 int command_stress(const Options& options) {
+  if (options.largest_step) return command_largest_step(options);
   const auto backends = list_backends();
   const Plans plans = plan_stress(options, backends);
   print_notes(plans.left_out, options.quiet);

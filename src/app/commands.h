@@ -13,5 +13,6 @@ int command_agree(const Options& options);
 int command_study(const Options& options);
 int command_validate(const Options& options);
 int command_stress(const Options& options);
+int command_largest_step(const Options& options);  ///< stress --largest-step
 
 }  // namespace squall::app

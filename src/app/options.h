@@ -52,6 +52,7 @@ struct Options {
   bool quick = false;             ///< validate, stress: coarser scenes, shorter runs
   bool list = false;              ///< validate: says what there is
   std::vector<int> case_numbers;  ///< stress; empty: all
+  bool largest_step = false;      ///< stress: looks for it instead of trying the cases
   StudyOptions study;
 
   bool json_alone() const { return json == "-"; }  ///< stdout holds the JSON and nothing else

@@ -39,6 +39,10 @@ double largest_held_speed(const Scene& scene, double time) {
   return largest;
 }
 
+int fixed_count(double length, double step) {
+  return static_cast<int>(std::clamp(std::round(length / step), 1.0, static_cast<double>(k_max_substeps)));
+}
+
 /// Sub-steps of the frame; sets `limited` if more were wanted than there may be.
 int substep_count(const Scene& scene, Pressure pressure, const Clock& clock, double begin, double length,
                   bool& limited) {
@@ -70,7 +74,9 @@ FramePlan plan_frame(const Scene& scene, const Settings& settings, const Clock& 
   FramePlan plan;
   const double length = 1.0 / scene.time.frame_rate_hz;
   const double begin = static_cast<double>(clock.frame) / scene.time.frame_rate_hz;
-  const int count = substep_count(scene, settings.pressure, clock, begin, length, plan.limited);
+  const int count = settings.fixed_step_s > 0.0
+                        ? fixed_count(length, settings.fixed_step_s)
+                        : substep_count(scene, settings.pressure, clock, begin, length, plan.limited);
   plan.frame = clock.frame;
   plan.dt = length / count;
 

@@ -50,6 +50,9 @@ struct Settings {
   std::string device;      ///< OpenCL device: its index in `squall devices`, or part of its name; empty: the first
   std::uint64_t seed = 1;  ///< of the rain
   WorkSizes work;          ///< of the opencl backend
+  /// s: every sub-step has this length and a frame as many as fit into it, at most k_max_substeps, whatever the bounds
+  /// of the time step say; 0: as planned (docs/physics.md). For those who look for these bounds.
+  double fixed_step_s = 0.0;
   bool statistics = true;  ///< fill density_error_* and neighbours_mean of the frame report
   bool profile = false;    ///< fill phase_ms; slows OpenCL down
   bool trace = false;      ///< fill spans of the frame report; slows OpenCL down as profile does

@@ -68,6 +68,17 @@ double largest_speed(const Particles& particles) {
   return largest;
 }
 
+void check_step(const Scene& scene, const Settings& settings) {
+  const double fixed = settings.fixed_step_s;
+  if (!(fixed >= 0.0 && std::isfinite(fixed)))
+    throw InputError("fixed_step_s = " + std::to_string(fixed) + " is no time step; 0 plans them");
+  if (fixed > 0.0 && 1.0 / (scene.time.frame_rate_hz * fixed) > k_max_substeps + 0.5)
+    throw InputError("fixed_step_s fits into a frame of frame_rate_hz = " + std::to_string(scene.time.frame_rate_hz) +
+                     " more than " + std::to_string(k_max_substeps) + " times; raise either");
+  if (fixed > 0.0) return;
+  if (const std::string problem = step_problem(scene, settings.pressure); !problem.empty()) throw InputError(problem);
+}
+
 /// Takes from a frame's plan what comes after `done` sub-steps, at most so many; statistics are of its last one.
 void keep_part(const Settings& settings, int done, int most, FramePlan& plan) {
   auto& substeps = plan.substeps;
@@ -90,7 +101,7 @@ Solver::Solver(Scene scene, Settings settings) : scene_(std::move(scene)), setti
                      to_string(settings_.pressure) + "; remove it or write 0");
   if (const std::string problem = ratio_problem(scene_, settings_.pressure); !problem.empty())
     throw InputError(problem);
-  if (const std::string problem = step_problem(scene_, settings_.pressure); !problem.empty()) throw InputError(problem);
+  check_step(scene_, settings_);
   params_ = make_params(scene_, settings_.pressure);
   boxes_ = make_boxes(scene_, settings_.pressure);
   held_groups_ = make_held_groups(scene_);

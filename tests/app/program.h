@@ -92,6 +92,13 @@ class Program {
   }
 
   void interrupt() const { kill(child_, SIGINT); }
+  /// It has a handler for SIGINT by now (proc(5): SigCgt, a bit per signal from 1 on).
+  bool catches_interrupts() const {
+    std::istringstream status(text_of("/proc/" + std::to_string(child_) + "/status"));
+    for (std::string line; std::getline(status, line);)
+      if (line.rfind("SigCgt:", 0) == 0) return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+    return false;
+  }
   void terminate() const { kill(child_, SIGTERM); }
   void kill_now() const { kill(child_, SIGKILL); }
   void stop() const { kill(child_, SIGSTOP); }

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/program.h"
 
@@ -32,6 +34,36 @@ TEST(StressCommand, JsonHoldsFindings) {
       EXPECT_EQ(tried["verdict"], "not_applicable");
     }
   }
+}
+
+TEST(StressCommand, LooksForTheLargestStep) {
+  const TemporaryFolder folder;
+  const Outcome outcome = squall({"stress", "--largest-step", "--quick", "--pressure", "wcsph", "--precision", "single",
+                                  "--json", folder / "steps.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  EXPECT_NE(outcome.out.find("squall's own steps are stable"), std::string::npos) << outcome.out;
+  const json result = json::parse(text_of(folder / "steps.json"));
+  EXPECT_EQ(result["interrupted"], false);
+  ASSERT_EQ(result["largest_steps"].size(), 2u);
+  for (const auto& row : result["largest_steps"]) {
+    EXPECT_EQ(row["backend"], "omp");
+    EXPECT_EQ(row["speed_of_sound_m_s"], 20.0);
+    EXPECT_GT(row["largest_step_s"], row["taken_step_s"]);
+    EXPECT_EQ(row["margin"].get<double>(), row["largest_step_s"].get<double>() / row["taken_step_s"].get<double>());
+  }
+  EXPECT_EQ(squall({"stress", "--largest-step", "--case", "4"}).code, 2);
+}
+
+TEST(StressCommand, AnInterruptKeepsTheStepsThatWereFound) {
+  const TemporaryFolder folder;
+  // Without OpenCL, whose compilers catch signals of their own.
+  Program program({"stress", "--largest-step", "--backend", "reference", "--json", folder / "steps.json"},
+                  {{"OCL_ICD_VENDORS", "/no/such/folder"}, {"OCL_ICD_FILENAMES", ""}});
+  for (int tries = 0; tries < 3000 && !program.catches_interrupts(); ++tries)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  program.interrupt();
+  EXPECT_EQ(program.wait().code, 130);
+  EXPECT_EQ(json::parse(text_of(folder / "steps.json"))["interrupted"], true);
 }
 
 TEST(StressCommand, RefusesWhatItCannotTry) {

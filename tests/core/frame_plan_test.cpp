@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "backends.h"
 #include "support/numbers.h"
 #include "support/scenes.h"
 
@@ -117,6 +118,29 @@ TEST(FramePlan, TooManySubstepsAreCutAndSaidSo) {
     EXPECT_TRUE(plan.limited);
     EXPECT_EQ(plan.substeps.size(), static_cast<std::size_t>(k_max_substeps));
   }
+}
+
+// A fixed step is taken whatever the bounds say, and fills the frame.
+TEST(FramePlan, AFixedStepKnowsNoBound) {
+  Scene scene = filled_tank(4);
+  scene.fluid.viscosity_m2_s = 100;
+  Settings settings;
+  Clock fast = clock_at(0, 900, 1e-5);
+  fast.max_speed = 1e6;
+  for (const int count : {1, 7, k_max_substeps}) {
+    settings.fixed_step_s = 1.0 / 60 / count;
+    const FramePlan plan = plan_frame(scene, settings, fast);
+    EXPECT_EQ(plan.substeps.size(), static_cast<std::size_t>(count));
+    EXPECT_NEAR(plan.dt, settings.fixed_step_s, rounding<double>(4));
+    EXPECT_FALSE(plan.limited);
+    EXPECT_NO_THROW(make_solver("reference", scene, settings));
+  }
+  for (const double nonsense : {-1e-3, 1.0 / 60 / 1100, std::numeric_limits<double>::quiet_NaN()}) {
+    settings.fixed_step_s = nonsense;
+    EXPECT_THROW(make_solver("reference", filled_tank(4), settings), InputError) << nonsense;
+  }
+  settings.fixed_step_s = 0;
+  EXPECT_THROW(make_solver("reference", scene, settings), InputError) << "100 m^2/s need too many";
 }
 
 // Leap-frog: the first kick of all is half a step, any other reaches from middle to middle.
