@@ -53,10 +53,11 @@ std::string verdict_of(const std::vector<StepResult>& results) {
   std::string text;
   const auto gaining = std::count_if(results.begin(), results.end(), [](const auto& r) { return r.gain_anyway > 0.0; });
   if (gaining > 0)
-    text +=
-        fmt::format("* {} settings gain energy at every step; twice that of short steps is allowed there\n", gaining);
-  if (hopeless > 0) text += fmt::format("{} settings are unstable at every step that was tried\n", hopeless);
-  if (std::isfinite(least)) text += fmt::format("squall's own steps are stable; the least margin is {:.2f}\n", least);
+    text += fmt::format("* gains energy at every step; twice that of short steps is allowed ({} settings)\n", gaining);
+  if (hopeless > 0) text += fmt::format("unstable at every step that was tried: {} settings\n", hopeless);
+  if (std::isfinite(least))
+    text += fmt::format("{}squall's own steps are stable; the least margin is {:.2f}\n",
+                        hopeless > 0 ? "elsewhere " : "", least);
   return text;
 }
 
