@@ -47,11 +47,9 @@ void add_stream(const std::string& machine, const std::shared_ptr<HostProbe>& pr
       for (auto _ : state) state.SetIterationTime(1e9 / bandwidth);
       state.counters["bytes_per_s"] = bandwidth;
     };
-    ::benchmark::RegisterBenchmark(("stream/" + std::string(to_string(stream)) + "/" + where + "/" + machine).c_str(),
-                                   run)
-        ->UseManualTime()
-        ->Iterations(1)
-        ->Unit(::benchmark::kMillisecond);
+    std::string name = "stream/";
+    name.append(to_string(stream)).append("/").append(where).append("/").append(machine);
+    ::benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime()->Iterations(1)->Unit(::benchmark::kMillisecond);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "bench_support/cases.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "backends.h"
 #include "core/state_hash.h"
@@ -34,7 +35,7 @@ State collapsed(Pressure pressure, int layers, Effort effort) {
   const auto solver = solver_for(scene_of({layers, 1}), pressure, false);
   const double duration_s = effort == Effort::smoke ? 0.1 * k_collapse_s : k_collapse_s;
   const double frames = duration_s * solver->scene().time.frame_rate_hz;
-  for (int frame = 0; frame < static_cast<int>(frames + 0.5); ++frame) solver->advance(Delivery::nothing);
+  for (long frame = 0; frame < std::lround(frames); ++frame) solver->advance(Delivery::nothing);
   return solver->state();
 }
 

@@ -11,12 +11,13 @@ namespace {
 
 // Independent chains: latency times throughput of the units that exist (4 cycles, 2 a cycle). Both kinds together fill
 // the sixteen registers of AVX2, so no operand is a constant.
-constexpr int k_chains = 8;
+static constexpr int k_chains = 8;
 
 /// Starts at -0.5, from where fma creeps towards 0, at 1 and at 0, which stay: no number gets out of hand. `nothing` is
 /// 0, which the compiler must not know: it would compute equal chains once.
 template <class Pack, bool fuses, bool multiplies, bool adds>
 Pack fast_operations(std::int64_t rounds, Pack start, float nothing) {
+  // NOLINTNEXTLINE(misc-redundant-expression): constants are what the compiler must not see
   const Pack zero = start - start, one = zero - (start + start);
   Pack fused[k_chains], products[k_chains], sums[k_chains];
   for (int chain = 0; chain < k_chains; ++chain) {

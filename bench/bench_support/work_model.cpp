@@ -74,7 +74,8 @@ void count_block(const Params<float>& p, const Sorted& sorted, const Block& bloc
       const int from = sorted.cell_start[static_cast<std::size_t>(cell + first_x)];
       const int to = sorted.cell_start[static_cast<std::size_t>(cell + last_x + 1)];
       slots.candidates += to - from;
-      slots.culled += (to - from + lanes - 1) / lanes * lanes;  // a vector at a time, the last one partly empty
+      const int vectors = (to - from + lanes - 1) / lanes;  // the last one partly empty
+      slots.culled += vectors * lanes;
       for (int j = from; j < to; ++j) {
         if (!(box.squared_distance(at(j)) < p.list_squared)) continue;
         slots.boxed += 1;

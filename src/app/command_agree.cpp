@@ -27,7 +27,7 @@ namespace {
 /// for. One that cannot be scaled stays as it is.
 Workload sized_workload(const Options& options, std::vector<std::string>& notes) {
   constexpr std::int64_t k_enough = 1000;
-  const Workload workload = load_workload(options);
+  Workload workload = load_workload(options);
   if (options.particles || workload.info.particles <= k_enough) return workload;
   try {
     Workload smaller = scaled(workload, k_enough);

@@ -53,7 +53,7 @@ Plans plan_validation(const Options& options, Pressure pressure, const std::vect
   for (const auto& name : names) {
     const BackendInfo& backend = find_backend(backends, name);
     const std::string problem = problem_of(backend);
-    if (!problem.empty() && by_name) throw DeviceError("backend " + name + " cannot run: " + problem);
+    if (!problem.empty() && by_name) throw DeviceError(fmt::format("backend {} cannot run: {}", name, problem));
     if (!problem.empty()) continue;
     harness::RunPlan plan = validation_plan(options, pressure, backend);
     const std::string refusal = refusal_of(name, plan.settings);

@@ -24,6 +24,7 @@ namespace {
 /// Asks for the cache line `ahead` values further on, which may lie behind the end: nothing is read.
 SQUALL_INLINE void prefetch([[maybe_unused]] const Scalar* from, [[maybe_unused]] std::size_t ahead) {
 #if defined(__GNUC__)
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): a pointer may not point there
   __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(from) + ahead * sizeof(Scalar)));
 #endif
 }

@@ -82,7 +82,7 @@ void add_velocity(const LoopConstants<Pack>& c, const Record<Scalar>& b, Pack s,
 /// What is under way for a stretch of a block's neighbours. Their contributions are made in three short loops instead
 /// of one long one: from a pair's load to its sum lies a chain of some 65 cycles, and a processor has room for about
 /// three pairs in such a chain, but for many in each of its parts.
-constexpr int k_stretch = 16;
+static constexpr int k_stretch = 16;
 
 template <class Pack>
 struct Stretch {

@@ -68,7 +68,7 @@ HWY_INLINE Pack smallest_lane(Pack a) { return Pack(hn::MinOfLanes(Scalars(), a.
 HWY_INLINE Pack largest_lane(Pack a) { return Pack(hn::MaxOfLanes(Scalars(), a.lanes)); }
 
 /// Scalars in a block: vectors meet records of 8 Scalars in blocks of 16 bytes.
-constexpr int k_block = 16 / static_cast<int>(sizeof(Scalar));
+static constexpr int k_block = 16 / static_cast<int>(sizeof(Scalar));
 
 /// The block at `from` and those k_block, 2 k_block, ... records further, as many as a vector holds.
 HWY_INLINE hn::Vec<Scalars> load_blocks(const Scalar* from) {
@@ -129,7 +129,7 @@ struct SetBits {
         if ((byte >> bit & 1u) != 0) numbers[byte][count++] = static_cast<std::uint8_t>(bit);
   }
 };
-[[maybe_unused]] constexpr SetBits k_set_bits;
+[[maybe_unused]] static constexpr SetBits k_set_bits;
 
 /// convergence_term of numbers that are 0 or above and at most 1024: below 2^52 a double holds integers and, 3 *
 /// 2^51 added, rounds to them and shows them in its bits.

@@ -61,6 +61,8 @@ using Pages = std::unique_ptr<std::byte[], PageDeleter>;
 Pages allocate_pages(std::size_t bytes);
 
 /// Everything on the device. A record is eight numbers: {x, y, z, spare, vx, vy, vz, spare}.
+// NOLINTNEXTLINE(bugprone-exception-escape,bugprone-reserved-identifier): what opencl.hpp and the compiler do as it
+// moves
 struct Buffers {
   cl::Buffer records;                ///< between sub-steps, in the order of the last sort
   cl::Buffer sorted;                 ///< within a sub-step

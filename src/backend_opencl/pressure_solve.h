@@ -24,7 +24,7 @@ class PressureSolve {
 
  private:
   /// One of the two solves.
-  struct Solve {
+  struct Solve {  // NOLINT(bugprone-exception-escape): what opencl.hpp does as it moves
     const char* phase;
     cl::Kernel rate, sums, decide, push;
     int expected = 1;  ///< iterations to enqueue at first

@@ -180,6 +180,7 @@ int integrate(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& 
   return drift(p, walls, substep, particle);
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the argument is a type
 #define SQUALL_INSTANTIATE(Scalar)                                                                                 \
   template void sort(const Params<Scalar>&, const std::vector<HeldGroup>&, int, SortedParticles<Scalar>&);         \
   template void density(const Params<Scalar>&, const Terms&, const Walls<Scalar>&, SortedParticles<Scalar>&, int); \
@@ -193,5 +194,6 @@ int integrate(const Params<Scalar>& p, const Terms& terms, const Walls<Scalar>& 
 SQUALL_INSTANTIATE(float)
 SQUALL_INSTANTIATE(double)
 #undef SQUALL_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace squall::reference

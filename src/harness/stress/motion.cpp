@@ -129,9 +129,11 @@ void drops(Bench bench, Outcome outcome) {
     Particles particles = one_drop(meeting.from, speed);
     if (meeting.resident) particles.add(1, {0.4, 0.5 * spacing, 0.2}, Eigen::Vector3d::Zero());
     if (meeting.water)
-      for (int i = 0; i < 16 * 4 * 8; ++i)
-        particles.add(static_cast<std::uint32_t>(1 + i),
-                      spacing * Eigen::Vector3d(i % 16 + 0.5, i / 16 % 4 + 0.5, i / 64 + 0.5), Eigen::Vector3d::Zero());
+      for (int i = 0; i < 16 * 4 * 8; ++i) {
+        const Eigen::Vector3i index(i % 16, i / 16 % 4, i / 64);
+        const Eigen::Vector3d at = spacing * (index.cast<double>().array() + 0.5).matrix();
+        particles.add(static_cast<std::uint32_t>(1 + i), at, Eigen::Vector3d::Zero());
+      }
     scene.solver.speed_of_sound_m_s = 10.0 * std::sqrt(2.0 * k_stress_gravity * rim);
     scene = with_room_for(scene, particles.size());
     const auto solver = bench.make(scene);

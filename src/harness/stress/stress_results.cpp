@@ -66,7 +66,7 @@ Json to_json(const Context& context, bool quick, const std::vector<StressResult>
 }
 
 std::string finding_text(const StressFinding& finding) {
-  const std::string text = fmt::format("{}: {:.4g}", finding.what, finding.value);
+  std::string text = fmt::format("{}: {:.4g}", finding.what, finding.value);
   switch (finding.relation) {
     case StressFinding::Relation::at_most:
       return fmt::format("{} (at most {:.4g})", text, finding.limit);

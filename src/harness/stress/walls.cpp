@@ -28,7 +28,8 @@ void corner_residents(Bench bench, Outcome outcome) {
   Particles residents;
   for (int place = 0; place < 27; ++place) {
     const double d = place % 2 ? 1e-7 : 0.0;
-    const Eigen::Vector3d share = Eigen::Vector3d(place % 3, place / 3 % 3, place / 9) / 2.0;
+    const Eigen::Vector3i index(place % 3, place / 3 % 3, place / 9);
+    const Eigen::Vector3d share = index.cast<double>() / 2.0;
     const Eigen::Vector3d low = Eigen::Vector3d::Constant(d), high = k_tank - low;
     residents.add(static_cast<std::uint32_t>(place), low + share.cwiseProduct(high - low), Eigen::Vector3d::Zero());
   }
