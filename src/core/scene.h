@@ -102,8 +102,8 @@ struct Scene {
   Eigen::Vector3d container_size() const { return container.max_m - container.min_m; }   ///< [m]
   double fluid_depth() const;    ///< D [m]: top of the highest block above the floor, or the container's height
   double fastest_start() const;  ///< largest start velocity of a block or a particle of a file [m/s]
-  /// Speed [m/s] the water will reach, > 0: that of a fall through its own depth; without gravity that of the fastest
-  /// start; 1 m/s where nothing moves.
+  /// Speed [m/s] the water will reach, > 0: sqrt(g D), that of a fall through half its depth D and of long waves on it;
+  /// without gravity that of the fastest start; 1 m/s where nothing moves.
   double reached_speed() const;
   /// c [m/s], > 0: as given, or 10 sqrt(g D); without gravity ten times the fastest start, or 10 m/s if nothing moves.
   double speed_of_sound() const;

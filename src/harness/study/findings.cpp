@@ -17,7 +17,7 @@ namespace squall::harness {
 namespace {
 
 constexpr double k_largest_compression = 0.25;  ///< mean, in any frame: no water any more
-constexpr double k_largest_gain = 0.25;         ///< of the energy of a fall through the depth, out of nothing
+constexpr double k_largest_gain = 0.25;         ///< of the energy's scale (observable_scales), out of nothing
 
 /// Why the end state, or the way there, is no water; empty if it is.
 std::string instability_of(const StudyPoint& point, const Record& record) {
@@ -30,7 +30,7 @@ std::string instability_of(const StudyPoint& point, const Record& record) {
                            100.0 * k_largest_compression);
   if (point.run.scene.container.motions.empty() && !(record.energy_gain <= k_largest_gain))
     return fmt::format(
-        "it gains energy out of nothing: {:.3g} % of that of a fall through its depth; {:g} % is the "
+        "it gains energy out of nothing: {:.3g} % of what it had above the floor, M g D/2; {:g} % is the "
         "most that is taken for water",
         100.0 * record.energy_gain, 100.0 * k_largest_gain);
   return "";

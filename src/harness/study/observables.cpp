@@ -25,8 +25,8 @@ const std::vector<StudyObservable>& study_observables() {
       {"x_cm_m", "depth", true, false},
       {"y_cm_m", "depth", true, false},
       {"front_m", "depth", true, false},
-      {"energy_j", "energy of a fall through the depth", true, false},
-      {k_floor_pressure, "pressure of the depth", false, false},
+      {"energy_j", "M g D/2", true, false},
+      {k_floor_pressure, "rho0 g D/2", false, false},
       {"density_error_mean", "1", false, true},
   };
   return all;

@@ -78,8 +78,8 @@ void add_definitions(const StudyResult& result, HtmlReport& page) {
        {"p95 ms", "95th percentile of frame time; median over the timings."},
        {"error",
         "Root mean square, over the output times after every frame, of the difference of an observable from "
-        "the same one of the reference, over its scale: lengths over the depth, energy over that of a fall "
-        "through the depth, pressure over that of the depth."},
+        "the same one of the reference, over its scale: lengths over the depth D, energy over M g D/2, "
+        "pressure over rho0 g D/2."},
        {"combined", "The root mean square of the errors of " + combined + "."},
        {"reference",
         "The same pressure solver, spacing and support ratio in double, dfsph with tolerances of 1e-7, sub-steps at "
