@@ -69,8 +69,8 @@ void add_notes(harness::StudyResult& result) {
   notes.push_back("strict maths only: this version has no fast maths to compare it with");
 }
 
-int exit_code(const harness::StudyResult& result) {
-  if (result.runs.interrupted) return k_exit_interrupted;
+int exit_code(const harness::StudyResult& result, const Interrupt& interrupt) {
+  if (result.runs.interrupted) return interrupt.exit_code();
   const auto& points = result.findings.points;
   const auto any = [&](harness::PointStatus status) {
     return std::any_of(points.begin(), points.end(), [&](const auto& point) { return point.status == status; });
@@ -135,7 +135,7 @@ int command_study(const Options& options) {
   if (!options.json_alone()) std::cout << study_text(result) << std::flush;
   write_json(options, harness::to_json(result));
   if (folder) folder->finish(result);
-  return exit_code(result);
+  return exit_code(result, interrupt);
 }
 
 }  // namespace squall::app

@@ -140,7 +140,9 @@ int command_sweep(const Options& options) {
   if (!options.out.empty()) {
     harness::require_gnuplot();
     refuse_other_results(options.out, "sweep", {subject_of(workload.info)});
-    folder.emplace(options.out);
+    harness::SweepResult begun = result;
+    begun.sweep.interrupted = true;
+    folder.emplace(options.out, harness::json_text(harness::to_json(begun)));
   }
   check_targets(options);
   result.sweep = measure(scene_at, result.plan, Progress(options.quiet, workload.info.name), interrupt, folder);

@@ -91,6 +91,7 @@ void add_jobs(const Options& options, harness::Case what, const std::vector<Back
         jobs.jobs.push_back({index, plan, std::move(scene)});
         continue;
       }
+      if (!asked.empty()) throw InputError(fmt::format("{}: {}: {}", what.name, to_string(pressure), problem));
       refusal = fmt::format("{}: {} is left out: {}", what.name, to_string(pressure), problem);
       note_once(jobs.notes, refusal);
     }
@@ -137,38 +138,13 @@ void protect_cases(const Options& options, const Jobs& jobs) {
 
 std::vector<Subject> subjects_of(const std::vector<harness::CaseResult>& results) {
   std::vector<Subject> subjects;
-  for (const auto& result : results) subjects.push_back(subject_of(result.what.name, result.what.scene.name));
+  for (const auto& result : results)
+    subjects.push_back(subject_of(result.what.name, result.what.scene.name, scene_hash(result.what.scene)));
   return subjects;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Runs everything; false if it was interrupted.
-bool run_jobs(const Options& options, Jobs& jobs, const Interrupt& interrupt, std::optional<ValidationFolder>& folder) {
-  Progress progress(options.quiet, "validate");
-  const auto start = std::chrono::steady_clock::now();
-  const auto make = [](const harness::RunPlan& plan, const Scene& scene) {
-    return make_solver(plan.backend, scene, plan.settings);
-  };
-  for (std::size_t j = 0; j < jobs.jobs.size(); ++j) {
-    const Job& job = jobs.jobs[j];
-    harness::CaseResult& result = jobs.results[job.result];
-    const auto after_sample = [&](double share) {
-      const double done = (static_cast<double>(j) + share) / static_cast<double>(jobs.jobs.size());
-      progress.update(done, result.what.name, seconds_since(start) * (1.0 - done) / done);
-      return !interrupt.requested();
-    };
-    result.runs.push_back(harness::run_case(result.what, job.scene, job.plan, make, after_sample));
-    const bool last = j + 1 == jobs.jobs.size() || jobs.jobs[j + 1].result != job.result;
-    if (!last && !interrupt.requested()) continue;
-    progress.clear();
-    if (!options.json_alone()) std::cout << case_text(result) << std::flush;
-    if (folder) folder->add(result);
-    if (interrupt.requested()) return false;
-  }
-  return true;
 }
 
 std::vector<harness::CaseResult> started(std::vector<harness::CaseResult> results) {
@@ -187,6 +163,50 @@ harness::Context context_of_runs(const std::vector<BackendInfo>& backends,
       rows.push_back(row);
     }
   return context_of(backends, rows);
+}
+
+std::vector<std::string> warnings_of(const std::vector<harness::CaseResult>& results) {
+  std::vector<std::string> all;
+  for (const auto& result : results)
+    for (const auto& run : result.runs)
+      for (const auto& warning : run.warnings)
+        all.push_back(fmt::format("{}, {}: {}", result.what.name, harness::run_name(run), warning));
+  return all;
+}
+
+/// Of a validation that is not over.
+harness::Json json_so_far(const std::vector<BackendInfo>& backends, const Jobs& jobs) {
+  const auto results = started(jobs.results);
+  auto json = harness::to_json(context_of_runs(backends, results), results, jobs.notes);
+  json["interrupted"] = true;
+  return json;
+}
+
+/// Runs everything; false if it was interrupted.
+bool run_jobs(const Options& options, const std::vector<BackendInfo>& backends, Jobs& jobs, const Interrupt& interrupt,
+              std::optional<ValidationFolder>& folder) {
+  Progress progress(options.quiet, "validate");
+  const auto start = std::chrono::steady_clock::now();
+  const auto make = [](const harness::RunPlan& plan, const Scene& scene) {
+    return make_solver(plan.backend, scene, plan.settings);
+  };
+  for (std::size_t j = 0; j < jobs.jobs.size(); ++j) {
+    const Job& job = jobs.jobs[j];
+    harness::CaseResult& result = jobs.results[job.result];
+    const auto after_sample = [&](double share) {
+      const double done = (static_cast<double>(j) + share) / static_cast<double>(jobs.jobs.size());
+      progress.update(done, result.what.name, seconds_since(start) * (1.0 - done) / done);
+      return !interrupt.requested();
+    };
+    result.runs.push_back(harness::run_case(result.what, job.scene, job.plan, make, after_sample));
+    const bool last = j + 1 == jobs.jobs.size() || jobs.jobs[j + 1].result != job.result;
+    if (!last && !interrupt.requested()) continue;
+    progress.clear();
+    if (!options.json_alone()) std::cout << case_text(result) << std::flush;
+    if (folder) folder->add(result, json_so_far(backends, jobs));
+    if (interrupt.requested()) return false;
+  }
+  return true;
 }
 
 int exit_code(const std::vector<harness::CaseResult>& results) {
@@ -215,10 +235,11 @@ int command_validate(const Options& options) {
     folder.emplace(options.out);
   }
   check_targets(options);
-  const bool finished = run_jobs(options, jobs, interrupt, folder);
+  const bool finished = run_jobs(options, backends, jobs, interrupt, folder);
   const auto results = started(std::move(jobs.results));
   const auto context = context_of_runs(backends, results);
   if (!options.json_alone()) std::cout << validation_summary(results) << std::flush;
+  if (options.json_alone()) print_notes(warnings_of(results), options.quiet);
   write_json(options, harness::to_json(context, results, jobs.notes));
   if (folder) folder->finish(context, results, jobs.notes);
   return finished ? exit_code(results) : interrupt.exit_code();

@@ -41,7 +41,8 @@ std::vector<Subject> subjects_in(const Json& json) {
   if (const auto cases = json.find("cases"); cases != json.end() && cases->is_array()) {
     std::vector<Subject> subjects;
     for (const auto& one : *cases)
-      if (one.is_object()) subjects.push_back(subject_of(text_at(one, "name"), text_at(one, "scene")));
+      if (one.is_object())
+        subjects.push_back(subject_of(text_at(one, "name"), text_at(one, "scene"), text_at(one, "scene_hash")));
     return subjects;
   }
   if (const auto scene = json.find("scene"); scene != json.end() && scene->is_object()) return {scene_subject(*scene)};
@@ -81,8 +82,8 @@ Subject subject_of(const harness::SceneInfo& scene) {
   return scene_subject({{"name", scene.name}, {"hash", scene.hash}, {"particles", scene.particles}});
 }
 
-Subject subject_of(const std::string& case_name, const std::string& scene_name) {
-  const std::string text = fmt::format("case {} (scene {})", case_name, scene_name);
+Subject subject_of(const std::string& case_name, const std::string& scene_name, const std::string& scene_hash) {
+  const std::string text = fmt::format("case {} (scene {}, hash {})", case_name, scene_name, scene_hash);
   return {text, text};
 }
 

@@ -16,7 +16,7 @@ struct Subject {
 /// The subject of a study or sweep.
 Subject subject_of(const harness::SceneInfo& scene);
 /// One of a validation.
-Subject subject_of(const std::string& case_name, const std::string& scene_name);
+Subject subject_of(const std::string& case_name, const std::string& scene_name, const std::string& scene_hash);
 
 /// Throws InputError if a folder of --out holds results that `command` ("study", "sweep", "validate") would replace by
 /// those of something else: of another command, since all write report.html, or about a subject that is none of `mine`.

@@ -23,7 +23,7 @@ std::vector<std::string> cells_of(const StepResult& result) {
   const auto& setting = result.setting;
   const auto& theory = result.theory;
   const std::string most = result.largest_s > 0.0 ? milliseconds(result.largest_s) : "none";
-  return {to_string(setting.subject.settings.pressure),
+  return {setting.subject.label,
           setting.signal_m_s > 0.0 ? fmt::format("{:g}", setting.signal_m_s) : "-",
           fmt::format("{:.3g}", setting.viscosity_m2_s),
           setting.subject.settings.precision == Precision::single_precision ? "single" : "double",
@@ -65,16 +65,15 @@ std::string verdict_of(const std::vector<StepResult>& results) {
 
 std::string largest_step_text(const std::vector<StepResult>& results) {
   if (results.empty()) return "";
-  Table table({"solver", "c m/s", "nu m2/s", "precision", "largest ms", "of sound", "of viscosity", "of force",
+  Table table({"run", "c m/s", "nu m2/s", "precision", "largest ms", "of sound", "of viscosity", "of force",
                "of motion", "of least", "squall's ms", "margin"});
   std::string text, label, breaks;
   for (const auto& result : results) {
     const auto& subject = result.setting.subject;
     if (label.find(subject.backend) == std::string::npos) label += (label.empty() ? "" : ", ") + subject.backend;
     table.add(cells_of(result));
-    breaks += fmt::format("{}, c {:g} m/s, nu {:.3g} m2/s, {}: {}\n", to_string(subject.settings.pressure),
-                          result.setting.signal_m_s, result.setting.viscosity_m2_s,
-                          to_string(subject.settings.precision), account_of(result));
+    breaks += fmt::format("{}, c {:g} m/s, nu {:.3g} m2/s, {}: {}\n", subject.label, result.setting.signal_m_s,
+                          result.setting.viscosity_m2_s, to_string(subject.settings.precision), account_of(result));
   }
   return fmt::format("largest stable time step on {}\n\n{}\n{}\n{}", label, table.text(), breaks, verdict_of(results));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/folder_files.h"
 #include "core/errors.h"
@@ -18,7 +19,7 @@ std::vector<std::filesystem::path> SweepFolder::own_files(const std::filesystem:
   return files;
 }
 
-SweepFolder::SweepFolder(const std::string& path) : path_(path) {
+SweepFolder::SweepFolder(const std::string& path, std::string begun) : path_(path), begun_json_(std::move(begun)) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", path, error.message()));
@@ -44,6 +45,7 @@ void SweepFolder::add_points(const std::vector<harness::SweepPoint>& points) {
       std::any_of(points.begin(), points.end(), [](const auto& point) { return point.row.frames > 0; });
   if (!begun_ && !any_frame) return;
   if (!begun_) begin();
+  if (any_frame && !begun_json_.empty()) write("sweep.json", std::exchange(begun_json_, ""));
   for (const auto& point : waiting_) harness::write_point(points_, point);
   waiting_.clear();
   points_.flush();

@@ -15,7 +15,8 @@ namespace squall::app {
 /// for what cannot be written.
 class SweepFolder {
  public:
-  explicit SweepFolder(const std::string& path);
+  /// `begun`: what sweep.json says from the first size on, so that a sweep that is killed says whose points these are.
+  SweepFolder(const std::string& path, std::string begun);
 
   /// Paths in this folder that are the names above, whether there or not.
   static std::vector<std::filesystem::path> own_files(const std::filesystem::path& folder);
@@ -31,6 +32,7 @@ class SweepFolder {
   void write(const std::string& name, const std::string& text) const;
 
   std::filesystem::path path_;
+  std::string begun_json_;
   bool begun_ = false;
   std::vector<harness::SweepPoint> waiting_;  ///< without a frame; not worth earlier results
   std::ofstream points_;

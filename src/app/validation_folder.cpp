@@ -38,12 +38,13 @@ bool ValidationFolder::is_worth(const harness::CaseResult& result) const {
   return !any_exists(files);
 }
 
-void ValidationFolder::add(const harness::CaseResult& result) {
+void ValidationFolder::add(const harness::CaseResult& result, const harness::Json& so_far) {
   if (!begun_ && !is_worth(result)) {
     waiting_.push_back(result);
     return;
   }
   begin();
+  write("validate.json", harness::json_text(so_far));
   write_case(result);
 }
 

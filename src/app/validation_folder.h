@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/context.h"
+#include "harness/results_json.h"
 #include "harness/validation/validate.h"
 
 namespace squall::app {
@@ -22,8 +23,9 @@ class ValidationFolder {
   static std::filesystem::path series_file(const std::filesystem::path& folder, const std::string& case_name,
                                            const harness::RunPlan& plan);
 
-  /// Writes the time series and the plots of a case. Throws DeviceError if gnuplot does not draw.
-  void add(const harness::CaseResult& result);
+  /// Writes the time series and the plots of a case, and before them what `so_far` says of all cases until now: so that
+  /// a validation that is killed says whose files these are. Throws DeviceError if gnuplot does not draw.
+  void add(const harness::CaseResult& result, const harness::Json& so_far);
   /// Writes validate.json and report.html, unless the folder keeps an earlier validation.
   void finish(const harness::Context& context, const std::vector<harness::CaseResult>& results,
               const std::vector<std::string>& notes);

@@ -5,7 +5,8 @@
 
 namespace squall {
 
-std::optional<std::pair<std::size_t, std::size_t>> same_place(const std::vector<Eigen::Vector3d>& positions) {
+std::optional<std::pair<std::size_t, std::size_t>> same_place(const std::vector<Eigen::Vector3d>& positions,
+                                                              std::size_t from) {
   using Place = std::pair<std::array<float, 3>, std::size_t>;
   std::vector<Place> places;
   places.reserve(positions.size());
@@ -16,7 +17,8 @@ std::optional<std::pair<std::size_t, std::size_t>> same_place(const std::vector<
   std::sort(places.begin(), places.end());
   std::optional<std::pair<std::size_t, std::size_t>> first;
   for (std::size_t i = 0; i + 1 < places.size(); ++i)
-    if (places[i].first == places[i + 1].first && (!first || places[i + 1].second < first->second))
+    if (places[i + 1].second >= from && places[i].first == places[i + 1].first &&
+        (!first || places[i + 1].second < first->second))
       first = {places[i].second, places[i + 1].second};
   return first;
 }

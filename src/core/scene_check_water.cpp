@@ -59,7 +59,9 @@ std::string Checks::particle_fault(const Eigen::Vector3d& position, const Eigen:
 
 void Checks::check_places() const {
   if (scene_.particle_files.empty()) return;
-  const auto twins = same_place(initial_particles(scene_).positions);
+  std::int64_t in_blocks = 0;
+  for (const Scene::Block& block : scene_.blocks) in_blocks += block_points(scene_, block);
+  const auto twins = same_place(initial_particles(scene_).positions, static_cast<std::size_t>(in_blocks));
   if (!twins) return;
   const Origin second = origin_of(twins->second);
   fail({"particles", second.file}, "file",

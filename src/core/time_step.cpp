@@ -68,13 +68,30 @@ double courant_limit(const Scene& scene, Pressure pressure, double speed) {
   return cfl * scene.support_radius() / (signal_speed(scene, pressure) + 1.2 * speed);
 }
 
+/// Whether any of it falls in the scene's duration.
+bool falls(const Scene& scene, const Scene::Rain& rain) {
+  return rain.max_particles > 0 && particles_per_second(scene, rain) > 0.0 && rain.start_s < scene.time.duration_s;
+}
+
 /// Of the drops that there are, as they are released [m/s].
 double rain_speed(const Scene& scene) {
   double fastest = 0.0;
   for (const Scene::Rain& rain : scene.rains) {
     const Eigen::Vector3d fall{0.0, -terminal_speed(rain.drop_diameter_mm), 0.0};
-    if (rain.max_particles > 0) fastest = std::max(fastest, (fall + rain.wind_m_s).norm());
+    if (falls(scene, rain)) fastest = std::max(fastest, (fall + rain.wind_m_s).norm());
   }
+  return fastest;
+}
+
+/// Of what moves within the scene's duration: a block that is held longer does not [m/s].
+double start_speed(const Scene& scene) {
+  double fastest = 0.0;
+  for (const Scene::Block& block : scene.blocks)
+    if (!block.held_until_s || *block.held_until_s < scene.time.duration_s)
+      fastest = std::max(fastest, block.velocity_m_s.norm());
+  for (const Scene::ParticleFile& particle_file : scene.particle_files)
+    for (const Eigen::Vector3d& velocity : particle_file.particles.velocities)
+      fastest = std::max(fastest, velocity.norm());
   return fastest;
 }
 
@@ -115,13 +132,29 @@ class Blame {
     const double support = scene_.support_radius();
     const double most = viscous_factor(pressure_) * support * support / shortest_;
     const double artificial = artificial_part(scene_, pressure_, scene_.solver.artificial_viscosity);
-    if (artificial > most)
-      return sentence("artificial_viscosity = " + number_text(scene_.solver.artificial_viscosity),
-                      "artificial_viscosity up to " + at_most_text(most / artificial_part(scene_, pressure_, 1.0)),
-                      "lower artificial_viscosity or speed_of_sound_m_s", false);
-    const double rest = most - artificial - smoothing_part(scene_, pressure_);
-    return sentence("viscosity_m2_s = " + number_text(scene_.fluid.viscosity_m2_s.value_or(0.0)),
-                    "viscosity_m2_s up to " + at_most_text(rest), "lower viscosity_m2_s", false);
+    const double smoothing = smoothing_part(scene_, pressure_);
+    const double physical = scene_.fluid.viscosity_m2_s.value_or(0.0);
+    const std::string name = "viscosity_m2_s = " + number_text(physical);
+    const std::string up_to = "viscosity_m2_s up to " + at_most_text(most - artificial - smoothing);
+    if (physical > most) return sentence(name, up_to, "lower viscosity_m2_s", false);
+    if (artificial > physical)
+      return sentence(
+          "artificial_viscosity = " + number_text(scene_.solver.artificial_viscosity) +
+              beside("viscosity_m2_s = ", physical, ""),
+          "artificial_viscosity up to " + at_most_text((most - physical) / artificial_part(scene_, pressure_, 1.0)),
+          "lower artificial_viscosity or speed_of_sound_m_s", false);
+    const std::string amounts = ", which counts as " + digits_text(artificial + smoothing) + " m^2/s,";
+    if (smoothing > 0.0)
+      return sentence(name + beside("xsph = ", scene_.solver.xsph,
+                                    " at dt_max_s = " + number_text(scene_.solver.dt_max_s) + amounts),
+                      up_to, "lower viscosity_m2_s or xsph, raise dt_max_s", false);
+    return sentence(name + beside("artificial_viscosity = ", scene_.solver.artificial_viscosity, amounts), up_to,
+                    "lower viscosity_m2_s or artificial_viscosity", false);
+  }
+
+  /// What shares a bound with the value to blame; empty where there is none of it.
+  static std::string beside(const std::string& name, double value, const std::string& more) {
+    return value > 0.0 ? " beside " + name + number_text(value) + more : "";
   }
 
   /// Sound and motion together may be as fast as this [m/s].
@@ -205,7 +238,7 @@ std::string step_problem(const Scene& scene, Pressure pressure, double speed, co
 }
 
 std::string step_problem(const Scene& scene, Pressure pressure) {
-  const double start = scene.fastest_start(), rain = rain_speed(scene);
+  const double start = start_speed(scene), rain = rain_speed(scene);
   return step_problem(scene, pressure, std::max(start, rain),
                       rain > start ? "rain with a speed" : "a start at a speed");
 }

@@ -99,7 +99,9 @@ class Sweeper {
       measure(scene, index);
       return true;
     } catch (const InputError& refusal) {
-      if (result_.sizes.empty()) throw;
+      if (result_.sizes.empty())
+        throw InputError(fmt::format("at {} particles, the first size: {}; --particles N,N,... takes others",
+                                     count_text(scene.info.scene_particles), refusal.what()));
       return end(SizeProblem::scene, refusal.what());
     } catch (const std::bad_alloc&) {
       if (result_.sizes.empty()) throw;

@@ -20,7 +20,7 @@ std::string cut_short(const Row& row) {
 
 std::string too_dense(const Row& row) {
   return fmt::format(
-      "after its worst frame the water was {:.2g} % too dense on average, where density_tolerance asks for {:.2g} %; "
+      "after its worst frame the water was {:.3g} % too dense on average, where density_tolerance asks for {:.3g} %; "
       "a hard blow, particles that start too close together, walls that squeeze them or too few sub-steps can be why",
       100.0 * row.density_error_worst, 100.0 * row.density_tolerance);
 }

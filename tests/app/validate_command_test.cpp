@@ -127,7 +127,8 @@ TEST_F(ValidateCommand, WithoutWaterNothingPasses) {
   EXPECT_THAT(outcome.out, HasSubstr("no value"));
   EXPECT_THAT(outcome.out, HasSubstr("no particles from 0 to 0.1 s: nothing was measured"));
   EXPECT_THAT(outcome.out, HasSubstr("0 passed, 0 failed as expected, 10 unexpected"));
-  for (const auto& check : Json::parse(text_of(path("r.json")))["cases"][0]["checks"])
+  const Json json = Json::parse(text_of(path("r.json")));
+  for (const auto& check : json["cases"][0]["checks"])
     for (const auto& result : check["results"]) {
       EXPECT_EQ(result["verdict"], "fail");
       EXPECT_EQ(result["as_expected"], false);
@@ -174,12 +175,48 @@ TEST_F(ValidateCommand, LeavesTheFolderOfOtherCasesAlone) {
   const std::string before = text_of(path("out/validate.json")), page = text_of(path("out/report.html"));
   const Outcome other = run({path("second.toml")});
   EXPECT_EQ(other.code, 3);
-  EXPECT_THAT(other.err, HasSubstr("holds what `squall validate` found of case case (scene fall)"));
+  EXPECT_THAT(other.err, HasSubstr("holds what `squall validate` found of case case (scene fall, hash "));
   EXPECT_EQ(text_of(path("out/validate.json")), before);
   EXPECT_EQ(text_of(path("out/report.html")), page);
   EXPECT_FALSE(std::filesystem::exists(path("out/second_wcsph_omp.csv")));
   EXPECT_EQ(run({path("case.toml"), path("second.toml")}).code, 0) << "nothing is lost";
   EXPECT_EQ(run({path("case.toml")}).code, 3) << "second would be";
+}
+
+// One name is not one scene.
+TEST_F(ValidateCommand, LeavesTheFolderOfAnotherSceneOfTheSameNameAlone) {
+  write_case("formula = 'ballistic'\ntolerance = 1e-5\n");
+  const auto run = [&] {
+    return validate({path("case.toml"), "--pressure", "wcsph", "--out", path("out"), "--quiet"});
+  };
+  ASSERT_EQ(run().code, 0);
+  EXPECT_EQ(run().code, 0) << "one's own is replaced";
+  const std::string before = text_of(path("out/case_wcsph_omp.csv"));
+  std::string scene = text_of(path("fall.toml"));
+  scene.replace(scene.find("min_m = [0.3, 0.6"), 0, "velocity_m_s = [0, 1, 0]\n");
+  write("fall.toml", scene);
+  EXPECT_EQ(run().code, 3);
+  EXPECT_EQ(text_of(path("out/case_wcsph_omp.csv")), before);
+}
+
+// A run that ends early has failed, whatever is measured; a case may expect that.
+TEST_F(ValidateCommand, ARunThatEndsEarlyMayBeAKnownFailure) {
+  write(
+      "fall.toml",
+      "schema = 1\n[time]\nduration_s = 0.1\n[fluid]\nspacing_m = 0.1\n[solver]\nstiffness_m2_s2 = 1e7\ndt_max_s = 1\n"
+      "cfl = 10\n[container]\nmin_m = [0, 0, 0]\nmax_m = [1, 1, 1]\nopen_top = true\n[[block]]\nmin_m = [0, 0, 0]\n"
+      "max_m = [1, 1, 1]\n");
+  for (const char* expected : {"value = 0.5\n", "points = [[0.01, 0.5], [0.1, 0.5]]\n"}) {
+    write("case.toml",
+          std::string(
+              "schema = 1\ntitle = 'blast'\nsource = 'a test'\nscene = 'fall.toml'\nsolvers = ['mueller']\n[[check]]\n"
+              "quantity = 'y_cm_m'\ntolerance_why = 'a test'\ntolerance = 1e-5\n") +
+              expected + "[[check.fails]]\nsolver = 'mueller'\nreason = 'it flies apart'\n");
+    const Outcome outcome = validate({path("case.toml")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+    EXPECT_THAT(outcome.out, HasSubstr("fails, as expected: it flies apart (")) << expected;
+    EXPECT_THAT(outcome.out, HasSubstr("particles are lost")) << expected;
+  }
 }
 
 TEST_F(ValidateCommand, SaysWhichSolvesEndedAtTheirLimit) {

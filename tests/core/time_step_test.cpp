@@ -18,6 +18,7 @@
 namespace squall::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -224,6 +225,42 @@ TEST(StepProblem, GravityAndContainersAreNotBlamedBeforehand) {
     EXPECT_EQ(step_problem(scene, pressure), "");
     EXPECT_THAT(step_problem(scene, pressure, 1e4, "water with a speed"), StartsWith("water with a speed of 1e+04"));
   }
+}
+
+// What does not move in a scene's duration is not to blame.
+TEST(StepProblem, WhatNeverMovesIsNotBlamed) {
+  Scene scene = filled_tank(4);
+  scene.time.duration_s = 1.0;
+  scene.blocks[0].velocity_m_s = {1e5, 0, 0};
+  EXPECT_THAT(step_problem(scene, Pressure::dfsph), StartsWith("a start at a speed of 1e+05 m/s"));
+  scene.blocks[0].held_until_s = 2.0;
+  EXPECT_EQ(step_problem(scene, Pressure::dfsph), "");
+  scene.blocks[0].held_until_s = 0.5;
+  EXPECT_THAT(step_problem(scene, Pressure::dfsph), StartsWith("a start at a speed"));
+
+  scene.blocks.clear();
+  scene.rains.push_back(rain_over_tank(10));
+  scene.rains[0].wind_m_s = {1e5, 0, 0};
+  EXPECT_THAT(step_problem(scene, Pressure::dfsph), StartsWith("rain with a speed of 1e+05 m/s"));
+  scene.rains[0].start_s = 1.0;
+  EXPECT_EQ(step_problem(scene, Pressure::dfsph), "");
+  scene.rains[0].start_s = 0.0;
+  scene.rains[0].particles_per_s = 0.0;
+  EXPECT_EQ(step_problem(scene, Pressure::dfsph), "");
+}
+
+TEST(StepProblem, NamesWhatSharesTheBoundOfViscosity) {
+  Scene scene = filled_tank(4);
+  scene.fluid.viscosity_m2_s = 1.0;
+  scene.solver.dt_max_s = 1e-9;
+  scene.solver.xsph = 1.0;
+  EXPECT_THAT(step_problem(scene, Pressure::dfsph),
+              AllOf(StartsWith("viscosity_m2_s = 1 beside xsph = 1 at dt_max_s = 1e-09, which counts as"),
+                    HasSubstr("lower viscosity_m2_s or xsph, raise dt_max_s")));
+  scene.solver.dt_max_s = 1.0;
+  scene.solver.artificial_viscosity = 1e6;
+  EXPECT_THAT(step_problem(scene, Pressure::wcsph),
+              StartsWith("artificial_viscosity = 1e+06 beside viscosity_m2_s = 1 needs"));
 }
 
 }  // namespace

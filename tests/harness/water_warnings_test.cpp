@@ -21,7 +21,7 @@ Row row_of(Pressure pressure, double worst, double tolerance) {
 
 TEST(WaterWarnings, SayHowDenseTheWaterWas) {
   EXPECT_THAT(water_warnings(row_of(Pressure::dfsph, 0.0101, 0.001)),
-              ElementsAre(HasSubstr("was 1 % too dense on average, where density_tolerance asks for 0.1 %")));
+              ElementsAre(HasSubstr("was 1.01 % too dense on average, where density_tolerance asks for 0.1 %")));
 }
 
 TEST(WaterWarnings, AreNotOfWhatIsAskedForOrHardlySeen) {

@@ -74,6 +74,7 @@ Json run_json(const CaseRun& run) {
             {"clamps", run.clamps},
             {"wall_s", run.wall_s}};
   if (run.plan.settings.pressure == Pressure::dfsph) json["unconverged"] = run.unconverged;
+  if (!run.warnings.empty()) json["warnings"] = run.warnings;
   if (!run.error.empty()) json["error"] = run.error;
   if (run.interrupted) json["interrupted"] = true;
   return json;
@@ -85,8 +86,13 @@ Json to_json(const Context& context, const std::vector<CaseResult>& results, con
   Json json{{"schema", k_result_schema}, {"context", to_json(context)}, {"cases", Json::array()}};
   bool interrupted = false;
   for (const auto& result : results) {
-    Json entry{{"name", result.what.name},        {"title", result.what.title}, {"source", result.what.source},
-               {"scene", result.what.scene.name}, {"checks", Json::array()},    {"runs", Json::array()}};
+    Json entry{{"name", result.what.name},
+               {"title", result.what.title},
+               {"source", result.what.source},
+               {"scene", result.what.scene.name},
+               {"scene_hash", scene_hash(result.what.scene)},
+               {"checks", Json::array()},
+               {"runs", Json::array()}};
     for (std::size_t i = 0; i < result.what.checks.size(); ++i) entry["checks"].push_back(check_json(result, i));
     for (const auto& run : result.runs) {
       entry["runs"].push_back(run_json(run));

@@ -25,8 +25,9 @@ Verdict verdict_of(const Check& check, const CaseRun& run) {
   verdict.finding = judge(check, run.scene, run.series);
   if (run.error.empty() && run.any_water) return verdict;
   verdict.finding.passed = false;
+  // A run that ends early has failed, which a case may expect; values that it lacks are part of that.
+  verdict.finding.lacks_values = run.error.empty();
   if (run.error.empty()) {
-    verdict.finding.lacks_values = true;
     verdict.finding.error = k_no_value;
     verdict.finding.points.clear();
   }
