@@ -37,20 +37,28 @@ std::vector<harness::Row> rows_of(const harness::StudySubjects& subjects) {
   return rows;
 }
 
-harness::StudyCommand command_for(const harness::StudyRun& run, const std::string& name, const Options& options,
-                                  std::optional<StudyFolder>& folder) {
-  if (!folder) return {command_of(run, options.scene), ""};
+/// How to do a run again. Without a folder the scene as it lies there lacks what the point changed of `studied`: the
+/// command alone would be of another run, and says so.
+harness::StudyCommand command_for(const harness::StudyRun& run, const std::string& name, const Scene& studied,
+                                  const Options& options, std::optional<StudyFolder>& folder) {
+  if (!folder) {
+    const auto changes = harness::overrides_between(studied, run.scene);
+    std::string rest = options.particles ? fmt::format(" --particles {}", *options.particles) : "";
+    if (!changes.empty())
+      rest += fmt::format("  # but with {}: --out DIR writes this scene, too", fmt::join(changes, ", "));
+    return {command_of(run, options.scene) + rest, ""};
+  }
   const std::string file = folder->write_scene(name, run.scene, run.plan.settings.pressure);
   return {command_of(run, file), file};
 }
 
 void add_commands(const Options& options, std::optional<StudyFolder>& folder, harness::StudyResult& result) {
   for (const auto& point : result.runs.points.points)
-    result.point_commands.push_back(command_for(point.run, point.name, options, folder));
+    result.point_commands.push_back(command_for(point.run, point.name, result.subjects.scene, options, folder));
   for (const auto& model : result.runs.models)
-    result.reference_commands.push_back(
-        model.reference ? command_for(*model.reference, model.reference->plan.label, options, folder)
-                        : harness::StudyCommand{});
+    result.reference_commands.push_back(model.reference ? command_for(*model.reference, model.reference->plan.label,
+                                                                      result.subjects.scene, options, folder)
+                                                        : harness::StudyCommand{});
 }
 
 void add_notes(harness::StudyResult& result) {

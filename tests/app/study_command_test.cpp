@@ -56,6 +56,25 @@ TEST(StudyCommand, EveryPointIsRunAgainByItsCommand) {
   EXPECT_EQ(json::parse(again.out)["runs"][0]["state_hash"], reference["state_hash"]);
 }
 
+// No scene lies beside it then: of three steps one is the scene's own.
+TEST(StudyCommand, WithoutAFolderACommandSaysWhatItLacks) {
+  const TemporaryFolder folder;
+  const Outcome outcome = squall(with(k_study, {"--json", folder / "study.json"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  int alone = 0;
+  const json result = json::parse(text_of(folder / "study.json"));
+  ASSERT_EQ(result["points"].size(), 3u);
+  for (const auto& point : result["points"]) {
+    const std::string command = point["command"];
+    if (command.find("  # but with [solver] cfl = ") != std::string::npos) continue;
+    ++alone;
+    const Outcome again = squall(with(words_of(command), {"--json", "-"}));
+    ASSERT_EQ(again.code, 0) << command << again.err;
+    EXPECT_EQ(json::parse(again.out)["runs"][0]["state_hash"], point["state_hash"]) << command;
+  }
+  EXPECT_EQ(alone, 1);
+}
+
 TEST(StudyCommand, WritesTablesPlotsAndOnePage) {
   const TemporaryFolder folder;
   const Outcome outcome = squall(with(k_study, {"--out", folder / "out", "--budget-ms", "1e6"}));
